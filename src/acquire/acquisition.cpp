@@ -1,13 +1,11 @@
 #include "graze/acquire/acquisition.hpp"
 
+#include "acquire/instrument_failure.hpp"
 #include "graze/acquire/settling.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <optional>
 
 namespace graze {
 
@@ -29,16 +27,20 @@ public:
         } catch (const InstrumentError& error) {
             report_.ending = error.ending();
             report_.detail = error.problem();
-        } catch (...) { // rethrown when the output is safe
+        } catch (const std::exception& error) { // rethrown when the output is safe
             failure = std::current_exception();
+            report_.detail = error.what();
+        } catch (...) {
+            failure = std::current_exception();
+            report_.detail = "a callback has thrown what is no std::exception";
         }
         if (begun_)
             report_.safe = generator_.make_safe(experiment_.safe, report_.unsafe_because);
         report_.off = !report_.safe && generator_.is_switched_off();
         if (failure && report_.safe)
             std::rethrow_exception(failure);
-        if (failure)
-            tell_failure(failure);
+        if (failure) // an unsafe output is worse than its cause, and both must be reported
+            report_.ending = AcquisitionEnding::interrupted;
         return report_;
     }
 
@@ -47,18 +49,6 @@ private:
         GeneratorOptions result = experiment.generator;
         result.interrupted = options.interrupted;
         return result;
-    }
-
-    /// Puts the failure into the report: an unsafe output is worse than its cause, and both must be reported.
-    void tell_failure(const std::exception_ptr& failure) {
-        try {
-            std::rethrow_exception(failure);
-        } catch (const std::exception& error) {
-            report_.detail = error.what();
-        } catch (...) {
-            report_.detail = "a callback has thrown what is no std::exception";
-        }
-        report_.ending = AcquisitionEnding::interrupted;
     }
 
     void record_all() {
@@ -94,11 +84,7 @@ private:
     void choose_channels() {
         const RecordHeader& all = device_.header();
         header_.time = all.time;
-        if (experiment_.channels.empty())
-            for (std::size_t c = 0; c < all.channels.size(); ++c)
-                chosen_.push_back(c);
-        for (const std::string& name : experiment_.channels)
-            chosen_.push_back(all.channel(name, "samples.channels"));
+        chosen_ = all.chosen_channels(experiment_.channels, "samples.channels");
         for (const std::size_t c : chosen_)
             header_.channels.push_back(all.channels[c]);
         const SettlingOptions& settling = experiment_.settling;
@@ -189,19 +175,16 @@ private:
     /// Checks that the amplitude was not changed during the record.
     void require_unchanged(const Level& level) {
         double told = 0;
-        const auto is_same = [&] {
+        for (int attempt = 1;; ++attempt) { // a character may have been lost
             told = generator_.amplitude();
-            return std::abs(told - level.amplitude) <= experiment_.generator.tolerance * level.amplitude;
-        };
-        bool same = is_same();
-        for (int again = 1; !same && again < experiment_.generator.attempts; ++again) // a character may have been lost
-            same = is_same();
-        if (!same)
-            throw InstrumentError(
-                AcquisitionEnding::clipped,
-                fmt::format("the generator gives an amplitude of {} V, which was {} V when the record "
-                            "began; the record is not kept",
-                            told, level.amplitude));
+            if (std::abs(told - level.amplitude) <= experiment_.generator.tolerance * level.amplitude)
+                return;
+            if (attempt >= experiment_.generator.attempts)
+                break;
+        }
+        fail(AcquisitionEnding::clipped,
+             "the generator gives an amplitude of {} V, which was {} V when the record began; the record is not kept",
+             told, level.amplitude);
     }
 
     const Experiment& experiment_;

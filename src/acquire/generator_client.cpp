@@ -1,11 +1,11 @@
 #include "graze/acquire/generator_client.hpp"
 
 #include "acquire/generator_answer.hpp"
+#include "acquire/instrument_failure.hpp"
+#include "base/special_numbers.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/printable.hpp"
 #include "graze/base/trimmed.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
@@ -17,7 +17,6 @@ namespace graze {
 
 namespace {
 
-constexpr const char* generator_name = "the generator";
 constexpr int patient = 2; ///< factor for the attempts of questions and commands that are safe to repeat
 
 /// Whether another attempt may succeed.
@@ -39,11 +38,15 @@ struct GeneratorClient::Setting {
     const char *name, *command, *unit;
 };
 
+const GeneratorClient::Setting GeneratorClient::of_amplitude{"an amplitude", "VOLT", "V"},
+    GeneratorClient::of_offset{"an offset", "VOLT:OFFS", "V"},
+    GeneratorClient::of_frequency{"a frequency", "FREQ", "Hz"};
+
 std::string GeneratorClient::asked(std::string_view question) {
     line_->discard(); // discard late answers to earlier questions
     line_->send(question);
     const auto nobody = std::function<bool()>();
-    return awaited_line(*line_, options_.timeout, making_safe_ ? nobody : options_.interrupted, generator_name,
+    return awaited_line(*line_, options_.timeout, making_safe_ ? nobody : options_.interrupted, "the generator",
                         question);
 }
 
@@ -51,9 +54,8 @@ double GeneratorClient::asked_number(std::string_view question) {
     const std::string answer = asked(question);
     const std::optional<double> value = answered_number(trimmed(answer));
     if (!value)
-        throw InstrumentError(
-            AcquisitionEnding::garbled,
-            fmt::format("{} answers '{}' to {}", generator_name, shortened(printable_line(answer), 100), question));
+        fail(AcquisitionEnding::garbled, "the generator answers '{}' to {}", shortened(printable_line(answer), 100),
+             question);
     return *value;
 }
 
@@ -62,8 +64,7 @@ int GeneratorClient::asked_error(std::string& text) {
     text = printable_line(shortened(asked("SYST:ERR?"), 200));
     const std::optional<int> number = answered_error(text);
     if (!number)
-        throw InstrumentError(AcquisitionEnding::garbled,
-                              fmt::format("{} answers '{}' to SYST:ERR?", generator_name, text));
+        fail(AcquisitionEnding::garbled, "the generator answers '{}' to SYST:ERR?", text);
     return *number;
 }
 
@@ -93,10 +94,10 @@ void GeneratorClient::attempt(const Work& work, int factor) {
             const bool last = silenced_ || attempt >= factor * options_.attempts || !is_worth_another(error.ending());
             if (error.ending() == AcquisitionEnding::clipped && !is_in_step()) {
                 if (last)
-                    throw InstrumentError(AcquisitionEnding::garbled,
-                                          fmt::format("answers of {} are garbled, or come so late that they are not "
-                                                      "those to the questions ({})",
-                                                      generator_name, error.problem()));
+                    fail(AcquisitionEnding::garbled,
+                         "answers of the generator are garbled, or come so late that they are not those to the "
+                         "questions ({})",
+                         error.problem());
             } else if (last) {
                 throw;
             }
@@ -120,15 +121,11 @@ double GeneratorClient::set(const Setting& setting, double value, const std::fun
         std::string text;
         const int error = asked_error(text);
         if (error != 0 && !is_of_transmission(error))
-            throw InstrumentError(AcquisitionEnding::refused, fmt::format("{} refuses {} {} {}: {}", generator_name,
-                                                                          setting.name, value, setting.unit, text));
+            fail(AcquisitionEnding::refused, "the generator refuses {} {} {}: {}", setting.name, value, setting.unit,
+                 text);
         if (error != 0)
-            throw InstrumentError(AcquisitionEnding::garbled, fmt::format("{} says: {}", generator_name, text));
-        told = asked_number(std::string(setting.command) + "?");
-        if (!(std::abs(told - value) <= options_.tolerance * std::abs(value)))
-            throw InstrumentError(AcquisitionEnding::clipped,
-                                  fmt::format("{} gives {} of {} {} instead of {} {}", generator_name, setting.name,
-                                              told, setting.unit, value, setting.unit));
+            fail(AcquisitionEnding::garbled, "the generator says: {}", text);
+        told = checked(setting, value);
     });
     return told;
 }
@@ -136,9 +133,8 @@ double GeneratorClient::set(const Setting& setting, double value, const std::fun
 void GeneratorClient::require(const Choice& choice) {
     const std::string answer = asked(choice.command + "?");
     if (!choice.is_right(compared(answer)))
-        throw InstrumentError(AcquisitionEnding::clipped,
-                              fmt::format("{} has {} {} instead of {}: no level is sent", generator_name,
-                                          choice.command, shortened(printable_line(answer), 60), choice.value));
+        fail(AcquisitionEnding::clipped, "the generator has {} {} instead of {}: no level is sent", choice.command,
+             shortened(printable_line(answer), 60), choice.value);
 }
 
 /// Chooses a setting and reads it back. @param needed false: the generator may lack it
@@ -156,9 +152,8 @@ bool GeneratorClient::choose(const Choice& choice, bool needed) {
             if (!known && !needed && attempts >= options_.attempts)
                 return;
             if (!known)
-                throw InstrumentError(AcquisitionEnding::garbled,
-                                      fmt::format("{} does not understand {} {}: {}", generator_name, choice.command,
-                                                  choice.value, text));
+                fail(AcquisitionEnding::garbled, "the generator does not understand {} {}: {}", choice.command,
+                     choice.value, text);
             require(choice); // whatever error it reported, if the setting is right
         },
         patient);
@@ -205,12 +200,10 @@ void GeneratorClient::lower(double safe) {
     attempt(
         [&] {
             const std::string answer = compared(asked("OUTP:LOAD?"));
-            load = tells_load(answer, std::numeric_limits<double>::infinity()) ? std::numeric_limits<double>::infinity()
-                                                                               : answered_number(answer).value_or(0);
+            load = tells_load(answer, infinity) ? infinity : answered_number(answer).value_or(0);
             if (!(load > 0))
-                throw InstrumentError(AcquisitionEnding::garbled,
-                                      fmt::format("{} answers '{}' to OUTP:LOAD?", generator_name,
-                                                  shortened(printable_line(answer), 60)));
+                fail(AcquisitionEnding::garbled, "the generator answers '{}' to OUTP:LOAD?",
+                     shortened(printable_line(answer), 60));
         },
         patient);
     const double shown = safe * std::min(1.0, inner_by_shown(options_.load) / inner_by_shown(load));
@@ -249,12 +242,12 @@ void GeneratorClient::prepare(double safe) {
     else
         add({"FUNC", "SIN", is_sine});
     const double load = options_.load;
-    set({"an offset", "VOLT:OFFS", "V"}, 0); // set before a change of load rescales it
+    set(of_offset, 0); // set before a change of load rescales it
     require_quiet(number);
     const bool is_infinite = inner_by_shown(load) == 1;
     add({"OUTP:LOAD", is_infinite ? "INF" : fmt::format("{}", load),
          [load](const std::string& told) { return tells_load(told, load); }});
-    set({"an offset", "VOLT:OFFS", "V"}, 0); // again, as some generators keep the number instead
+    set(of_offset, 0); // again, as some generators keep the number instead
     offset_ = 0;
     require_plain();
     plain_ = true;
@@ -271,10 +264,9 @@ void GeneratorClient::require_quiet(double number) {
                 require({"OUTP", "OFF", tells_off});
             constexpr double close = 0.01;
             if (const double told = asked_number("VOLT?"); !(told <= number + close * std::abs(number)))
-                throw InstrumentError(AcquisitionEnding::clipped,
-                                      fmt::format("{} has an amplitude of {} V, which was lowered to {} V: no level is "
-                                                  "sent",
-                                                  generator_name, told, number));
+                fail(AcquisitionEnding::clipped,
+                     "the generator has an amplitude of {} V, which was lowered to {} V: no level is sent", told,
+                     number);
         },
         patient);
 }
@@ -286,20 +278,20 @@ void GeneratorClient::require_plain() {
 }
 
 /// Reads back a number that was set, once.
-void GeneratorClient::check(const Setting& setting, double value) {
-    if (const double told = asked_number(std::string(setting.command) + "?");
-        !(std::abs(told - value) <= options_.tolerance * std::abs(value)))
-        throw InstrumentError(AcquisitionEnding::clipped,
-                              fmt::format("{} gives {} of {} {} instead of {} {}", generator_name, setting.name, told,
-                                          setting.unit, value, setting.unit));
+double GeneratorClient::checked(const Setting& setting, double value) {
+    const double told = asked_number(std::string(setting.command) + "?");
+    if (!(std::abs(told - value) <= options_.tolerance * std::abs(value)))
+        fail(AcquisitionEnding::clipped, "the generator gives {0} of {1} {2} instead of {3} {2}", setting.name, told,
+             setting.unit, value);
+    return told;
 }
 
 /// Checks all settings of the output but the amplitude, before a level and after it. The offset comes first: setting a
 /// level may have changed it, and it adds to the voltage.
 void GeneratorClient::require_beside_amplitude() {
-    attempt([&] { check({"an offset", "VOLT:OFFS", "V"}, offset_); }, patient);
+    attempt([&] { checked(of_offset, offset_); }, patient);
     require_plain();
-    attempt([&] { check({"a frequency", "FREQ", "Hz"}, frequency_); }, patient);
+    attempt([&] { checked(of_frequency, frequency_); }, patient);
 }
 
 /// Switches the output off, or lowers it to the amplitude before the first level. `make_safe` reads it back.
@@ -318,19 +310,19 @@ void GeneratorClient::check_no_more() {
         told <= amplitude_ * (1 + options_.tolerance)) // with its output off there is no danger
         return;
     silence();
-    throw InstrumentError(AcquisitionEnding::clipped,
-                          fmt::format("{} gives an amplitude of {} V instead of {} V since its frequency was set: its "
-                                      "output was silenced at once",
-                                      generator_name, told, amplitude_));
+    fail(AcquisitionEnding::clipped,
+         "the generator gives an amplitude of {} V instead of {} V since its frequency was set: its output was "
+         "silenced at once",
+         told, amplitude_);
 }
 
 /// Reads back all settings of the output, once each.
 void GeneratorClient::check_level() {
-    check({"an amplitude", "VOLT", "V"}, amplitude_);
+    checked(of_amplitude, amplitude_);
     for (const Choice& choice : chosen_)
         require(choice);
-    check({"an offset", "VOLT:OFFS", "V"}, offset_);
-    check({"a frequency", "FREQ", "Hz"}, frequency_);
+    checked(of_offset, offset_);
+    checked(of_frequency, frequency_);
 }
 
 /// Switches the output on. The switch itself may change the level (recall another one), so all settings are read back
@@ -340,7 +332,7 @@ void GeneratorClient::switch_on() {
     for (int times = 1;; ++times) {
         try {
             attempt([&] { check_level(); }, patient);
-            attempt([&] { check({"an amplitude", "VOLT", "V"}, amplitude_); }, patient);
+            attempt([&] { checked(of_amplitude, amplitude_); }, patient);
         } catch (const InstrumentError& error) {
             if (changed.empty() || error.ending() != AcquisitionEnding::clipped)
                 throw;
@@ -355,8 +347,7 @@ void GeneratorClient::switch_on() {
             is_level = false;
             std::string text;
             if (asked_error(text) != 0)
-                throw InstrumentError(AcquisitionEnding::garbled,
-                                      fmt::format("{} says after OUTP ON: {}", generator_name, text));
+                fail(AcquisitionEnding::garbled, "the generator says after OUTP ON: {}", text);
             require({"OUTP", "ON", tells_on});
             is_on_ = true;
             return;
@@ -403,9 +394,9 @@ void GeneratorClient::begin(double frequency, double amplitude, double offset) {
     least_ = amplitude_ = amplitude;
     prepare(amplitude);
     // The amplitude comes first: with the offset it might exceed the generator's range.
-    set({"an amplitude", "VOLT", "V"}, amplitude);
+    set(of_amplitude, amplitude);
     set_frequency(frequency);
-    set({"an offset", "VOLT:OFFS", "V"}, offset);
+    set(of_offset, offset);
     offset_ = offset;
     switch_on();
 }
@@ -414,7 +405,7 @@ double GeneratorClient::set_amplitude(double amplitude) {
     require_within(amplitude, 0, options_.limits.amplitude, "an amplitude");
     require_beside_amplitude();
     amplitude_ = amplitude;
-    const double told = set({"an amplitude", "VOLT", "V"}, amplitude);
+    const double told = set(of_amplitude, amplitude);
     require_beside_amplitude();
     return told;
 }
@@ -422,7 +413,7 @@ double GeneratorClient::set_amplitude(double amplitude) {
 double GeneratorClient::set_frequency(double frequency) {
     require_within(frequency, options_.limits.least_frequency, options_.limits.greatest_frequency, "a frequency");
     frequency_ = frequency;
-    return set({"a frequency", "FREQ", "Hz"}, frequency, [&] { check_no_more(); });
+    return set(of_frequency, frequency, [&] { check_no_more(); });
 }
 
 double GeneratorClient::amplitude() {
@@ -430,10 +421,6 @@ double GeneratorClient::amplitude() {
     double told = 0;
     attempt([&] { told = asked_number("VOLT?"); }, patient);
     return told;
-}
-
-double GeneratorClient::frequency() {
-    return asked_number("FREQ?");
 }
 
 void GeneratorClient::try_safe(double amplitude) {
@@ -451,8 +438,8 @@ void GeneratorClient::try_safe(double amplitude) {
     if (!stands)
         prepare(amplitude); // its output stays off, if it has a switch
     amplitude_ = amplitude;
-    set({"an amplitude", "VOLT", "V"}, amplitude);
-    set({"an offset", "VOLT:OFFS", "V"}, 0);
+    set(of_amplitude, amplitude);
+    set(of_offset, 0);
     offset_ = 0;
     line_->send("SYST:LOC");
 }

@@ -1,10 +1,11 @@
 #include "graze/acquire/instrument_address.hpp"
 
+#include "base/letter_case.hpp"
+#include "record/text_number.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <string_view>
 #include <vector>
 
@@ -12,23 +13,12 @@ namespace graze {
 
 namespace {
 
-bool starts_with_word(std::string_view text, std::string_view word) {
-    return text.size() >= word.size() && std::equal(word.begin(), word.end(), text.begin(), [](char one, char other) {
-               return one == static_cast<char>(std::toupper(static_cast<unsigned char>(other)));
-           });
-}
-
-bool is_word(std::string_view text, std::string_view word) {
-    return text.size() == word.size() && starts_with_word(text, word);
-}
-
 bool are_digits(std::string_view text) {
     return std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
 bool read_port(std::string_view text, unsigned short& port) {
-    const auto [next, error] = std::from_chars(text.data(), text.data() + text.size(), port);
-    return error == std::errc() && next == text.data() + text.size() && port > 0;
+    return read_whole(text, port) && port > 0;
 }
 
 /// Splits a name at double colons, except within brackets, which hold an IPv6 address.
@@ -60,19 +50,19 @@ InstrumentAddress visa_address(const std::string& text, const Place& place) {
     const std::vector<std::string_view> parts = visa_parts(text);
     InstrumentAddress address;
     constexpr std::size_t kind_of_serial = 4, kind_of_tcp = 5; // lengths of ASRL and TCPIP
-    if (starts_with_word(text, "ASRL")) {
+    if (in_capitals(text).starts_with("ASRL")) {
         const std::string_view path = parts[0].substr(kind_of_serial);
         if (are_digits(path))
             refuse_address(text, place, "names a serial line by a number, which is not supported",
                            "give its path, as ASRL/dev/ttyUSB0::INSTR");
-        if (parts.size() > 2 || (parts.size() == 2 && !is_word(parts[1], "INSTR")))
+        if (parts.size() > 2 || (parts.size() == 2 && in_capitals(parts[1]) != "INSTR"))
             refuse_address(text, place, "is not a VISA name of a serial line", "write it as ASRL/dev/ttyUSB0::INSTR");
         address.name = path;
         return address;
     }
     address.is_tcp = true;
     constexpr std::size_t of_socket = 4;
-    if (parts.size() != of_socket || !is_word(parts[3], "SOCKET") || !are_digits(parts[0].substr(kind_of_tcp)) ||
+    if (parts.size() != of_socket || in_capitals(parts[3]) != "SOCKET" || !are_digits(parts[0].substr(kind_of_tcp)) ||
         without_brackets(parts[1]).empty() || !read_port(parts[2], address.port))
         refuse_address(text, place, "is not a VISA name of a TCP socket",
                        "give the port at which it takes SCPI, as TCPIP0::192.168.1.5::5025::SOCKET; VXI-11 and HiSLIP "
@@ -84,7 +74,8 @@ InstrumentAddress visa_address(const std::string& text, const Place& place) {
 } // namespace
 
 bool is_visa_name(const std::string& text) {
-    return text.find("::") != std::string::npos && (starts_with_word(text, "ASRL") || starts_with_word(text, "TCPIP"));
+    return text.find("::") != std::string::npos &&
+           (in_capitals(text).starts_with("ASRL") || in_capitals(text).starts_with("TCPIP"));
 }
 
 InstrumentAddress device_address(const std::string& text, const Place& place) {

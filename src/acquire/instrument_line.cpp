@@ -1,63 +1,43 @@
 #include "graze/acquire/instrument_line.hpp"
 
+#include "acquire/instrument_failure.hpp"
 #include "graze/base/require.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 
 namespace graze {
 
+namespace {
+
+struct EndingWords {
+    std::string_view name, remedy;
+};
+
+/// In the order of AcquisitionEnding.
+constexpr EndingWords words[]{
+    {"complete", "call it again to go on"},
+    {"interrupted", "call it again to go on"},
+    {"line-lost", "look at its cable and whether it is switched on, then call it again to go on"},
+    {"no-answer", "see whether it is switched on, and at this port with these settings of the line, then call it again "
+                  "to go on"},
+    {"garbled", "give the settings of the line that the instrument has (baud, parity, stop_bits, flow), or a better "
+                "cable, then call it again to go on"},
+    {"foreign", "nothing was set; give the generator's port, or what it answers as identity"},
+    {"refused", "give levels that it can take, in an experiment and a folder of their own"},
+    {"clipped", "see what limits it, its load or somebody at its knobs, then call it again to go on; or give a larger "
+                "tolerance under [generator]"},
+    {"samples", "see what it is doing, and whether rate, timeout and patience suit it, then call it again to go on"},
+};
+
+} // namespace
+
 std::string_view name_of(AcquisitionEnding ending) {
-    switch (ending) {
-    case AcquisitionEnding::complete:
-        return "complete";
-    case AcquisitionEnding::interrupted:
-        return "interrupted";
-    case AcquisitionEnding::line_lost:
-        return "line-lost";
-    case AcquisitionEnding::no_answer:
-        return "no-answer";
-    case AcquisitionEnding::garbled:
-        return "garbled";
-    case AcquisitionEnding::foreign:
-        return "foreign";
-    case AcquisitionEnding::refused:
-        return "refused";
-    case AcquisitionEnding::clipped:
-        return "clipped";
-    case AcquisitionEnding::samples:
-        return "samples";
-    }
-    return "";
+    return words[static_cast<std::size_t>(ending)].name;
 }
 
 std::string remedy_of(AcquisitionEnding ending) {
-    switch (ending) {
-    case AcquisitionEnding::complete:
-    case AcquisitionEnding::interrupted:
-        break;
-    case AcquisitionEnding::line_lost:
-        return "look at its cable and whether it is switched on, then call it again to go on";
-    case AcquisitionEnding::no_answer:
-        return "see whether it is switched on, and at this port with these settings of the line, then call it again to "
-               "go "
-               "on";
-    case AcquisitionEnding::garbled:
-        return "give the settings of the line that the instrument has (baud, parity, stop_bits, flow), or a better "
-               "cable, then call it again to go on";
-    case AcquisitionEnding::foreign:
-        return "nothing was set; give the generator's port, or what it answers as identity";
-    case AcquisitionEnding::refused:
-        return "give levels that it can take, in an experiment and a folder of their own";
-    case AcquisitionEnding::clipped:
-        return "see what limits it, its load or somebody at its knobs, then call it again to go on; or give a larger "
-               "tolerance under [generator]";
-    case AcquisitionEnding::samples:
-        return "see what it is doing, and whether rate, timeout and patience suit it, then call it again to go on";
-    }
-    return "call it again to go on";
+    return std::string(words[static_cast<std::size_t>(ending)].remedy);
 }
 
 std::string awaited_line(InstrumentLine& line, double timeout, const std::function<bool()>& interrupted,
@@ -75,9 +55,8 @@ std::string awaited_line(InstrumentLine& line, double timeout, const std::functi
         if (auto received = line.receive(std::clamp(left, 0.0, slice)))
             return *std::move(received);
         if (left <= 0)
-            throw InstrumentError(
-                AcquisitionEnding::no_answer,
-                fmt::format("{} has not answered {}{}for {} s", who, question, question.empty() ? "" : " ", timeout));
+            fail(AcquisitionEnding::no_answer, "{} has not answered {}{}for {} s", who, question,
+                 question.empty() ? "" : " ", timeout);
     }
 }
 

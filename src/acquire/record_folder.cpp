@@ -2,12 +2,13 @@
 
 #include "graze/base/printable.hpp"
 #include "graze/base/text_file.hpp"
+#include "record/text_number.hpp"
+#include "record/text_table.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <cstring>
@@ -20,7 +21,6 @@
 #include <system_error>
 #include <thread>
 #include <unistd.h>
-#include <vector>
 
 namespace graze {
 
@@ -53,22 +53,6 @@ std::optional<std::uint64_t> size_of(const std::string& path) {
     if (lstat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode))
         return std::nullopt;
     return static_cast<std::uint64_t>(status.st_size);
-}
-
-std::vector<std::string_view> cells_of(std::string_view line) {
-    std::vector<std::string_view> cells;
-    for (std::size_t begin = 0; begin <= line.size();) {
-        const std::size_t end = std::min(line.find(',', begin), line.size());
-        cells.push_back(line.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    return cells;
-}
-
-template <class Number>
-bool parsed(std::string_view cell, Number& value) {
-    const auto [next, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    return error == std::errc() && next == cell.data() + cell.size();
 }
 
 /// Describes the first line in which two texts differ.
@@ -205,14 +189,14 @@ void RecordFolder::read_manifest() {
         begin = end + 1;
         if (++number == 1)
             continue;
-        const auto cells = cells_of(line);
+        const auto cells = row_fields(line, ',');
         RecordEntry entry;
         std::size_t level = 0;
         int settled = 0;
-        const bool good = cells.size() == 10 && parsed(cells[0], level) && level >= 1 &&
-                          level <= experiment_.levels.size() && parsed(cells[5], entry.told) &&
-                          parsed(cells[6], settled) && parsed(cells[7], entry.settling) &&
-                          parsed(cells[8], entry.samples) && parsed(cells[9], entry.bytes);
+        const bool good = cells.size() == 10 && read_whole(cells[0], level) && level >= 1 &&
+                          level <= experiment_.levels.size() && read_whole(cells[5], entry.told) &&
+                          read_whole(cells[6], settled) && read_whole(cells[7], entry.settling) &&
+                          read_whole(cells[8], entry.samples) && read_whole(cells[9], entry.bytes);
         if (!good || cells[1] != experiment_.record_name(experiment_.levels[level - 1]))
             throw InputError(Place{path, number, 1}, "this is not a line of a list of this experiment's records",
                              "restore the list, or choose another folder");

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -17,6 +16,13 @@ namespace graze {
 namespace {
 
 constexpr const char* device_name = "the sample device";
+using Clock = std::chrono::steady_clock;
+
+/// The time that comes after so many seconds.
+Clock::time_point after(double seconds) {
+    return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
 constexpr std::size_t rows_at_once = 1024;
 constexpr double part_of_timeout = 0.25; ///< for lines that are discarded
 
@@ -73,8 +79,7 @@ void TextSampleDevice::set_rate(double rate) {
 void TextSampleDevice::begin(std::size_t count, std::size_t block) {
     constexpr double longest = 1e9; // s, also without a rate
     const double allowed = rate_ > 0 ? timeout_ + patience_ * static_cast<double>(count) / rate_ : longest;
-    latest_ = std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                                                     std::chrono::duration<double>(std::min(allowed, longest)));
+    latest_ = after(std::min(allowed, longest));
     line_->send(block > 0 ? fmt::format("READ {} {}", count, block) : fmt::format("READ {}", count));
     block_ = block;
     wanted_ = count;
@@ -85,7 +90,7 @@ void TextSampleDevice::begin(std::size_t count, std::size_t block) {
 
 /// Enforces the deadline for all samples: each row may arrive in time, and yet they never end.
 void TextSampleDevice::require_time() const {
-    if (std::chrono::steady_clock::now() > latest_)
+    if (Clock::now() > latest_)
         fail_to_sample(fmt::format("has sent only {} of {} samples, which last {:.6g} s, in {} times that time", given_,
                                    wanted_, static_cast<double>(wanted_) / rate_, patience_));
 }
@@ -146,9 +151,7 @@ bool TextSampleDevice::read(Samples& samples) {
 
 /// Discards lines until the device reports the end, or is silent for a while.
 void TextSampleDevice::drain() {
-    using Clock = std::chrono::steady_clock;
-    const auto most =
-        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout_));
+    const Clock::time_point most = after(timeout_);
     while (Clock::now() < most) {
         if (interrupted_ && interrupted_())
             throw InstrumentError(AcquisitionEnding::interrupted, "interrupted");
@@ -166,16 +169,12 @@ void TextSampleDevice::stop() {
     drain();
 }
 
-bool TextSampleDevice::done(const char* word, std::uint64_t number) {
-    return asked(fmt::format("{} {}", word, number)).starts_with("OK");
-}
-
 bool TextSampleDevice::mark(std::uint64_t number) {
-    return done("MARK", number);
+    return asked(fmt::format("MARK {}", number)).starts_with("OK");
 }
 
 bool TextSampleDevice::return_to(std::uint64_t number) {
-    return done("RETURN", number);
+    return asked(fmt::format("RETURN {}", number)).starts_with("OK");
 }
 
 } // namespace graze

@@ -1,5 +1,6 @@
 #include "graze/acquire/serial_line.hpp"
 
+#include "acquire/instrument_failure.hpp"
 #include "graze/acquire/instrument_address.hpp"
 
 // Asio is used header-only: nothing is linked.
@@ -9,7 +10,6 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/serial_port.hpp>
 #include <boost/asio/write.hpp>
-#include <fmt/format.h>
 
 #include <array>
 #include <chrono>
@@ -58,36 +58,32 @@ public:
             stream_.cancel(ignored);
             while (!sent && run_one())
                 continue;
-            throw InstrumentError(AcquisitionEnding::no_answer, fmt::format("{} accepts no data", name_));
+            fail(AcquisitionEnding::no_answer, "{} accepts no data", name_);
         }
         if (error)
-            lose(error);
+            failure_ = fmt::format("{} is closed ({})", name_, error.message());
+        require_open();
     }
     std::optional<std::string> receive(double wait) override {
         const auto end = std::chrono::steady_clock::now() + duration_of(wait);
         for (;;) {
             if (auto line = next_line())
                 return line;
-            if (!failure_.empty())
-                throw InstrumentError(AcquisitionEnding::line_lost, failure_);
-            read_on();
-            context_.restart();
-            if (context_.run_one_until(end) == 0)
+            require_open();
+            if (!step(end))
                 return next_line();
         }
     }
     void discard() override {
         require_open();
         for (int turn = 0; turn < 1000; ++turn) { // limits the work for a line that never ends
-            received_.clear();
-            scanned_ = 0;
+            forget();
             read_on();
             context_.restart();
             if (context_.poll() == 0)
                 break;
         }
-        received_.clear();
-        scanned_ = 0;
+        forget();
         require_open();
     }
     void reopen() override {
@@ -99,8 +95,7 @@ public:
 private:
     void start() {
         failure_.clear();
-        received_.clear();
-        scanned_ = 0;
+        forget();
         open_(context_, stream_);
         read_on();
     }
@@ -127,10 +122,15 @@ private:
         context_.restart();
         return context_.run_one() > 0;
     }
-    void step(std::chrono::steady_clock::time_point end) {
+    /// Reads on, and waits for something to happen. @return whether it did before the end
+    bool step(std::chrono::steady_clock::time_point end) {
         read_on();
         context_.restart();
-        context_.run_one_until(end);
+        return context_.run_one_until(end) > 0;
+    }
+    void forget() {
+        received_.clear();
+        scanned_ = 0;
     }
     /// Extracts the next line; empty lines are skipped.
     std::optional<std::string> next_line() {
@@ -145,20 +145,14 @@ private:
         }
         scanned_ = received_.size();
         if (received_.size() > longest_line) {
-            received_.clear();
-            scanned_ = 0;
-            throw InstrumentError(AcquisitionEnding::garbled,
-                                  fmt::format("{} sends a line of more than {} bytes", name_, longest_line));
+            forget();
+            fail(AcquisitionEnding::garbled, "{} sends a line of more than {} bytes", name_, std::size_t{longest_line});
         }
         return std::nullopt;
     }
     void require_open() const {
         if (!failure_.empty())
             throw InstrumentError(AcquisitionEnding::line_lost, failure_);
-    }
-    [[noreturn]] void lose(const Error& error) {
-        failure_ = fmt::format("{} is closed ({})", name_, error.message());
-        throw InstrumentError(AcquisitionEnding::line_lost, failure_);
     }
 
     static constexpr std::size_t most_received = std::size_t{1} << 20;
@@ -178,8 +172,7 @@ void set_option(asio::serial_port& port, const Option& option, const std::string
     Error error;
     port.set_option(option, error);
     if (error)
-        throw InstrumentError(AcquisitionEnding::line_lost,
-                              fmt::format("{} cannot be set to this {} ({})", name, what, error.message()));
+        fail(AcquisitionEnding::line_lost, "{} cannot be set to this {} ({})", name, what, error.message());
 }
 
 void open_port(const SerialSettings& settings, asio::serial_port& port) {
@@ -188,25 +181,16 @@ void open_port(const SerialSettings& settings, asio::serial_port& port) {
     Error error;
     port.open(name, error);
     if (error)
-        throw InstrumentError(AcquisitionEnding::line_lost,
-                              fmt::format("serial line '{}' cannot be opened ({})", name, error.message()));
+        fail(AcquisitionEnding::line_lost, "serial line '{}' cannot be opened ({})", name, error.message());
     set_option(port, Base::baud_rate(settings.baud), name, "rate");
     set_option(port, Base::character_size(settings.data_bits), name, "number of data bits");
-    set_option(port,
-               Base::parity(settings.parity == Parity::none  ? Base::parity::none
-                            : settings.parity == Parity::odd ? Base::parity::odd
-                                                             : Base::parity::even),
-               name, "parity");
-    set_option(port,
-               Base::stop_bits(settings.stop_bits == StopBits::one   ? Base::stop_bits::one
-                               : settings.stop_bits == StopBits::two ? Base::stop_bits::two
-                                                                     : Base::stop_bits::onepointfive),
-               name, "number of stop bits");
-    set_option(port,
-               Base::flow_control(settings.flow == FlowControl::none       ? Base::flow_control::none
-                                  : settings.flow == FlowControl::software ? Base::flow_control::software
-                                                                           : Base::flow_control::hardware),
-               name, "flow control");
+    // Asio lists parities, stop bits and flow controls in the same order.
+    const auto parity = static_cast<Base::parity::type>(settings.parity);
+    const auto stop_bits = static_cast<Base::stop_bits::type>(settings.stop_bits);
+    const auto flow = static_cast<Base::flow_control::type>(settings.flow);
+    set_option(port, Base::parity(parity), name, "parity");
+    set_option(port, Base::stop_bits(stop_bits), name, "number of stop bits");
+    set_option(port, Base::flow_control(flow), name, "flow control");
 }
 
 void open_socket(const std::string& host, unsigned short number, double timeout, asio::io_context& context,
@@ -225,7 +209,6 @@ void open_socket(const std::string& host, unsigned short number, double timeout,
         while (!done && context.run_one_until(end) > 0)
             continue;
         if (!done) {
-            error = asio::error::timed_out;
             Error ignored;
             socket.close(ignored);
             context.restart();
@@ -234,8 +217,7 @@ void open_socket(const std::string& host, unsigned short number, double timeout,
         }
     }
     if (error)
-        throw InstrumentError(AcquisitionEnding::line_lost,
-                              fmt::format("port {} of '{}' cannot be reached ({})", number, host, error.message()));
+        fail(AcquisitionEnding::line_lost, "port {} of '{}' cannot be reached ({})", number, host, error.message());
     socket.set_option(asio::ip::tcp::no_delay(true), error);
 }
 

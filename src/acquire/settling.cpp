@@ -105,9 +105,7 @@ Settled settle(SampleDevice& device, const SettlingOptions& options, double rate
     // Read in small blocks, so that no unused samples are taken: a simulated experiment is then reproducible.
     constexpr double part_of_second = 0.125;
     device.begin(most, static_cast<std::size_t>(std::clamp(part_of_second * rate, 16.0, 1024.0)));
-    PeriodSettings periods;
-    periods.reference = reference;
-    PeriodSplitter splitter(borrowed(source), periods);
+    PeriodSplitter splitter(borrowed(source), {reference});
     Period period;
     bool settled = false;
     while (!settled && splitter.next(period)) {

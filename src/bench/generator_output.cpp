@@ -6,19 +6,8 @@ namespace graze {
 
 double GeneratorOutput::fundamental() const {
     constexpr double pi = std::numbers::pi;
-    switch (shape) {
-    case WaveShape::sine:
-        return amplitude;
-    case WaveShape::square:
-        return 4 / pi * amplitude;
-    case WaveShape::triangle:
-        return 8 / (pi * pi) * amplitude;
-    case WaveShape::ramp:
-        return 2 / pi * amplitude;
-    case WaveShape::dc:
-        break;
-    }
-    return 0;
+    constexpr double factors[]{1, 4 / pi, 8 / (pi * pi), 2 / pi, 0}; // in the order of WaveShape
+    return factors[static_cast<int>(shape)] * amplitude;
 }
 
 bool GeneratorOutput::reaches(double amplitude) {

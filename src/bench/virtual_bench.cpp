@@ -2,13 +2,19 @@
 
 #include "base/random_number.hpp"
 #include "bench/anti_alias.hpp"
-#include "bench/bench_motion.hpp"
+#include "graze/trajectory/jet_set.hpp"
+#include "graze/trajectory/recorder.hpp"
+#include "graze/trajectory/trajectory.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
 
 namespace graze {
 
@@ -26,6 +32,132 @@ double converted(double value, double range, int bits) {
     const double step = std::ldexp(range, 1 - bits), most = std::ldexp(1.0, bits - 1) - 1;
     return step * std::clamp(std::nearbyint(value / step), -most - 1, most);
 }
+
+std::vector<Expression> values_of(const BenchSettings& settings) {
+    std::vector<Expression> values;
+    for (const BenchChannel& channel : settings.channels)
+        values.push_back(channel.value.value);
+    return values;
+}
+
+/// The motion of a model that is driven by a generator.
+class BenchMotion {
+public:
+    /// State of the motion at a time.
+    struct Moment {
+        double time = 0; ///< seconds
+        std::size_t mode = 0;
+        std::vector<double> state{};
+        std::string ended{};
+    };
+
+    explicit BenchMotion(const BenchSettings& settings)
+        : model_(settings.model), amplitude_(settings.amplitude), frequency_(settings.frequency),
+          offset_(settings.offset), time_unit_(settings.time_unit),
+          simulation_(System(settings.model), {}, {}, {.tolerance = settings.tolerance}),
+          jets_(simulation_, LaneKind::single), channels_(simulation_.system().function_of(values_of(settings))),
+          parameters_(model_.parameter_values()), inputs_(channels_.inputs()), values_(channels_.outputs()),
+          work_(channels_.workspace()) {
+        now_.mode = model_.initial_mode;
+        now_.state = model_.initial_state();
+        periods_ = model_.periods();
+        drive({});
+    }
+
+    /// Sets the generator from now on.
+    void drive(const GeneratorOutput& output) {
+        std::vector<double> parameters = parameters_;
+        const auto set = [&](const DrivenInput& input, double value) {
+            parameters[input.parameter.place()] = input.factor * value;
+        };
+        set(amplitude_, output.fundamental() / 2);
+        set(frequency_, output.frequency);
+        if (offset_)
+            set(*offset_, output.offset);
+        if (parameters == parameters_)
+            return;
+        moment();
+        parameters_ = std::move(parameters);
+    }
+    double time() const { return now_.time; }
+    const std::string& ended() const { return now_.ended; }
+    /// Returns the present state, and restarts the trajectory from it: later values then depend on that state alone,
+    /// not on the steps that led to it.
+    Moment moment() {
+        trajectory_.reset();
+        return now_;
+    }
+    void go_back(const Moment& moment) {
+        now_ = moment;
+        trajectory_.reset();
+    }
+
+    /// Receives the values of the channels. @param values valid during the call
+    using Receiver = std::function<void(std::span<const double> values)>;
+    /// Passes on values now, `spacing` seconds later, and so on, and advances time by count spacings.
+    void advance(double spacing, std::size_t count, const Receiver& receiver) {
+        // Limits the work between two calls of the receiver.
+        constexpr std::size_t part = 1024;
+        while (count > 0 && now_.ended.empty()) {
+            const std::size_t now = std::min(count, part);
+            const double start = trajectory_ ? trajectory_->time() : 0, step = spacing / time_unit_;
+            std::optional<Sampler> sampler;
+            if (receiver)
+                sampler.emplace(start, step, now, periods_, [&](double, std::size_t, std::span<const double> state) {
+                    std::copy(state.begin(), state.end(), inputs_.begin());
+                    std::copy(parameters_.begin(), parameters_.end(),
+                              inputs_.begin() + static_cast<std::ptrdiff_t>(state.size()));
+                    channels_.evaluate(inputs_, values_, work_);
+                    receiver(values_);
+                });
+            listener_.to = sampler ? &*sampler : nullptr;
+            go_on(step, now);
+            listener_.to = nullptr;
+            now_.mode = trajectory_->mode();
+            now_.state.assign(trajectory_->state().begin(), trajectory_->state().end());
+            now_.time = began_ + trajectory_->time() * time_unit_;
+            if (const Outcome& outcome = trajectory_->outcome(); outcome.ending != Ending::end_time)
+                now_.ended = fmt::format("the model's motion has ended ({}){}", name_of(outcome.ending),
+                                         outcome.detail.empty() ? std::string() : ": " + outcome.detail);
+            count -= now;
+        }
+    }
+
+private:
+    /// Forwards steps to the current observer.
+    class Listener : public Observer {
+    public:
+        Observer* to = nullptr;
+        void step(const Step& step) override {
+            if (to != nullptr)
+                to->step(step);
+        }
+    };
+    void go_on(double spacing, std::size_t count) {
+        const double length = static_cast<double>(count) * spacing;
+        if (trajectory_) {
+            trajectory_->extend(trajectory_->time() + length);
+        } else {
+            trajectory_.emplace(simulation_, parameters_, borrowed(listener_));
+            trajectory_->start(now_.state, now_.mode, 0, length);
+            began_ = now_.time;
+        }
+        run(*trajectory_, jets_);
+    }
+
+    Model model_;
+    DrivenInput amplitude_, frequency_;
+    std::optional<DrivenInput> offset_;
+    double time_unit_;
+    Simulation simulation_;
+    JetSet jets_;
+    Function channels_;
+    std::vector<double> parameters_, periods_, inputs_, values_, work_;
+    Listener listener_;
+    Moment now_;
+    std::optional<Trajectory> trajectory_; ///< empty: a new one starts from now_
+    double began_ = 0;                     ///< start of the trajectory's time
+};
 
 } // namespace
 

@@ -1,4 +1,4 @@
-#include "identify/alternative_solutions.hpp"
+#include "identify/fit_findings.hpp"
 
 #include "graze/base/input_error.hpp"
 
@@ -104,21 +104,20 @@ private:
                 continue;
             }
             mirrored.push_back(i);
-            const auto flip = [i](InitialConditions& to) {
-                for (std::vector<double>& start : to.starts)
-                    start[i] = -start[i];
-            };
             if (std::any_of(fit_->numbers.begin(), fit_->numbers.end(), [&](const FittedNumber& number) {
                     return number.kind == FittedNumber::Kind::state && number.index == i && is_sure(number);
                 }))
-                changes_.emplace_back(flip);
+                changes_.push_back(mirror({i}));
         }
         if (mirrored.size() > 1)
-            changes_.emplace_back([mirrored](InitialConditions& to) {
-                for (std::vector<double>& start : to.starts)
-                    for (const std::size_t i : mirrored)
-                        start[i] = -start[i];
-            });
+            changes_.push_back(mirror(mirrored));
+    }
+    static Change mirror(const std::vector<std::size_t>& states) {
+        return [states](InitialConditions& to) {
+            for (std::vector<double>& start : to.starts)
+                for (const std::size_t i : states)
+                    start[i] = -start[i];
+        };
     }
     /// Whether a state is unknown at the first time of every record.
     bool is_unknown(std::size_t state) const {
@@ -132,13 +131,10 @@ private:
         Model model = rows_->system().model();
         for (const Symmetry& symmetry : model.symmetries) {
             const Function map = model.function_of(model.expand(symmetry.map));
-            const std::vector<std::size_t> modes = symmetry.modes;
+            const std::vector<std::size_t>& modes = symmetry.modes;
             symmetries_.emplace_back([this, map, modes](InitialConditions& to) {
                 for (std::size_t r = 0; r < to.starts.size(); ++r) {
-                    std::vector<double> inputs = to.starts[r];
-                    const std::vector<double> values = rows_->parameters(r, point_->shared);
-                    inputs.insert(inputs.end(), values.begin(), values.end());
-                    to.starts[r] = map(inputs);
+                    to.starts[r] = map(rows_->inputs(r, to.starts[r], point_->shared));
                     to.modes[r] = modes[to.modes[r]];
                 }
             });
@@ -164,9 +160,7 @@ private:
         for (const Function& output : outputs_)
             work.resize(std::max(work.size(), output.workspace()));
         for (std::size_t r = 0; r < at.starts.size(); ++r) {
-            std::vector<double> inputs = at.starts[r];
-            const std::vector<double> values = rows_->parameters(r, shared);
-            inputs.insert(inputs.end(), values.begin(), values.end());
+            const std::vector<double> inputs = rows_->inputs(r, at.starts[r], shared);
             system.mode(at.modes[r]).rates.evaluate(inputs, rates, work);
             for (const FitRecord::Readings& readings : rows_->task().records[r].readings) {
                 const std::size_t o = readings.output;

@@ -1,9 +1,7 @@
 #pragma once
 
-#include "graze/identify/decay_wave.hpp"
+#include "graze/identify/decay_peaks.hpp"
 #include "graze/record/period.hpp"
-
-#include <Eigen/Core>
 
 #include <cmath>
 #include <optional>
@@ -31,19 +29,8 @@ struct DecayFit {
 
 /// Least-squares fit of c + exp(-decay s) (a cos(turn s) + b sin(turn s)) to the samples of whole periods, where s runs
 /// from 0 to 1 over these periods.
-class DampedSine {
-public:
-    DampedSine(const std::vector<Period>& periods, const Samples& samples, std::size_t channel, double level);
-    /// @return nothing when there are too few samples, or the Gauss-Newton iteration does not converge
-    std::optional<DecayFit> fit();
-
-private:
-    void fill(Eigen::MatrixXd& slopes, Eigen::VectorXd& left, const Eigen::VectorXd& linear) const;
-    DecayFit result_of(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& left, const Eigen::VectorXd& linear) const;
-    DecayWave wave_of(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& left) const;
-
-    double level_, begin_ = 0, length_ = 1, turn_ = 0, decay_ = 0;
-    std::vector<double> places_, values_;
-};
+/// @return nothing when there are too few samples, or the Gauss-Newton iteration does not converge
+std::optional<DecayFit> fit_damped_sine(const std::vector<Period>& periods, const Samples& samples, std::size_t channel,
+                                        double level);
 
 } // namespace graze

@@ -93,11 +93,7 @@ std::vector<double> smoothed(const Samples& samples, std::size_t channel, double
 std::vector<Period> periods_above(double hysteresis, const Samples& seen, const Samples& samples,
                                   const RecordHeader& header, std::size_t channel, double level, std::size_t most) {
     StoredSamples source(header, seen);
-    PeriodSettings settings;
-    settings.reference = channel;
-    settings.level = level;
-    settings.hysteresis = hysteresis;
-    PeriodSplitter splitter(borrowed(source), settings);
+    PeriodSplitter splitter(borrowed(source), {channel, level, hysteresis});
     std::vector<Period> periods;
     for (Period period; periods.size() < most && splitter.next(period);) {
         const auto row_of = [&](double time) {
@@ -145,27 +141,17 @@ struct PeakFit {
     double noise = 0; ///< standard error of the height
     std::vector<double> powers{};
 
-    double height(double t) const {
-        const double x = (t - middle) / width;
-        double sum = 0;
-        for (std::size_t k = powers.size(); k-- > 0;)
-            sum = sum * x + powers[k];
-        return sum;
-    }
+    double height(double t) const { return polynomial_at(powers, (t - middle) / width); }
 };
 
 /// Smallest degree whose truncation error for a cosine is below the noise: a higher degree would follow the noise.
 std::size_t powers_for(double noise_by_height) {
-    struct Left {
-        std::size_t degree;
-        double size;
-    };
     // Error of Chebyshev's polynomials for a cosine over 0.15 of its period on each side of its maximum.
-    constexpr Left left[] = {{2, 4e-3}, {4, 3e-5}, {6, 1.2e-7}};
+    constexpr std::pair<std::size_t, double> left[] = {{2, 4e-3}, {4, 3e-5}, {6, 1.2e-7}};
     constexpr double share = 0.1;
-    for (const Left& one : left)
-        if (one.size < share * noise_by_height)
-            return one.degree;
+    for (const auto& [degree, error] : left)
+        if (error < share * noise_by_height)
+            return degree;
     return 8;
 }
 
@@ -237,14 +223,10 @@ bool fit_peak(const Period& period, std::size_t channel, const DecayFit& rest, c
         if (std::abs(change) < 1e-15)
             break;
     }
-    peak.middle = middle;
-    peak.width = width;
-    peak.powers = powers;
-    peak.time = middle + width * x;
     double squares = 0;
     for (std::size_t k = 0; k <= fit.degree(); ++k)
         squares += fit.at_zero(k) * fit.at_zero(k);
-    peak.noise = rest.noise * std::sqrt(squares);
+    peak = {middle + width * x, middle, width, rest.noise * std::sqrt(squares), powers};
     // Compare the fitted envelope, not the peak itself, with the noise: else peaks that noise has raised would be
     // selected.
     constexpr double stands_out = 5;
@@ -330,7 +312,7 @@ DecayPeaks decay_peaks(SampleSource& source, std::size_t channel, std::size_t mo
                         name, periods.size() == 1 ? "one period" : "no period", level),
             "give the whole record of a decaying oscillation; damping may be too strong for this");
     require_no_gap(periods, samples, name);
-    const std::optional<DecayFit> found = DampedSine(periods, samples, channel, level).fit();
+    const std::optional<DecayFit> found = fit_damped_sine(periods, samples, channel, level);
     if (!found)
         throw InputError(fmt::format("'{}' is not a decaying oscillation", name),
                          "give the record of a single one, from its release on");

@@ -65,6 +65,21 @@ double fisher_tail(double ratio, double first, double second) {
     return incomplete_beta(0.5 * second, 0.5 * first, second / (second + first * ratio));
 }
 
+double chi_square_tail(double squares, std::size_t freedom) {
+    if (freedom == 0 || !(squares > 0))
+        return 1;
+    // Recurrence of the incomplete gamma function in its parameter, from 1/2 or 1 up to freedom/2; all terms are
+    // positive, so nothing cancels.
+    const double x = 0.5 * squares;
+    const bool odd = freedom % 2 == 1;
+    double tail = odd ? std::erfc(std::sqrt(x)) : std::exp(-x);
+    for (std::size_t k = odd ? 1 : 2; k + 2 <= freedom; k += 2) {
+        const double a = 0.5 * static_cast<double>(k);
+        tail += std::exp(a * std::log(x) - x - std::lgamma(a + 1));
+    }
+    return tail < 1 ? tail : 1;
+}
+
 double Estimate::half_width(double probability) const {
     return freedom > 0 ? student_quantile(probability, freedom) * error : 0;
 }
@@ -82,15 +97,15 @@ Combined combine(std::span<const Estimate> sets) {
         least = set.error > 0 && (least == 0 || set.error < least) ? set.error : least;
     const auto variance_of = [&](const Estimate& set) { return std::pow(std::max(set.error, 1e-3 * least), 2); };
     const auto mean_of = [&](double spread, double& weights, double& departures) {
+        const auto weight_of = [&](const Estimate& set) { return least > 0 ? 1 / (variance_of(set) + spread) : 1; };
         double sum = 0;
         weights = departures = 0;
         for (const Estimate& set : sets) {
-            const double weight = least > 0 ? 1 / (variance_of(set) + spread) : 1;
-            weights += weight;
-            sum += weight * set.value;
+            weights += weight_of(set);
+            sum += weight_of(set) * set.value;
         }
         for (const Estimate& set : sets)
-            departures += (least > 0 ? 1 / (variance_of(set) + spread) : 1) * std::pow(set.value - sum / weights, 2);
+            departures += weight_of(set) * std::pow(set.value - sum / weights, 2);
         return sum / weights;
     };
     double weights = 0, departures = 0, squares = 0;

@@ -6,7 +6,6 @@
 #include "graze/identify/restitution.hpp"
 #include "graze/record/impacts.hpp"
 
-#include <algorithm>
 #include <span>
 #include <string>
 #include <vector>

@@ -2,22 +2,16 @@
 
 #include "base/median.hpp"
 #include "graze/base/input_error.hpp"
-#include "identify/alternative_solutions.hpp"
 #include "identify/fit_callbacks.hpp"
 #include "identify/fit_findings.hpp"
 #include "identify/fit_initialisation.hpp"
-#include "identify/fit_mismatch.hpp"
 #include "identify/fit_solver.hpp"
 #include "identify/fit_start.hpp"
-#include "identify/joined_descent.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
-#include <vector>
 
 namespace graze {
 
@@ -35,20 +29,12 @@ std::vector<FitStage> stages_of(const FitRows& rows, const FitSettings& settings
     constexpr int few = 30;
     const bool joined = std::any_of(rows.layout.pieces.begin(), rows.layout.pieces.end(),
                                     [](const FitPiece& piece) { return piece.has_next; });
-    FitStage last;
-    last.joint = last_joint;
-    last.most_iterations = settings.most_iterations;
-    if (!joined)
-        return {last};
     std::vector<FitStage> stages;
-    for (const double joint : {1.0, 30.0, 100.0, 300.0, 1e3}) {
-        FitStage stage;
-        stage.joint = joint;
-        stage.tolerance = 1e-8;
-        stage.most_iterations = std::min(few, settings.most_iterations);
-        stages.push_back(stage);
-    }
-    stages.push_back(last);
+    for (const double joint : {1.0, 30.0, 100.0, 300.0, 1e3})
+        if (joined)
+            stages.push_back(
+                {.joint = joint, .most_iterations = std::min(few, settings.most_iterations), .tolerance = 1e-8});
+    stages.push_back({.joint = last_joint, .most_iterations = settings.most_iterations});
     return stages;
 }
 
@@ -150,12 +136,10 @@ private:
         point_ = other.point;
         for (std::size_t k = 0; k < pieces().size(); ++k)
             pieces()[k].mode = other.modes[k];
-        FitStage stage;
-        stage.joint = last_joint;
-        stage.most_iterations = settings_->most_iterations;
         Fit fit;
         fit.iterations = before.iterations;
-        const StageReport report = make(stage, 0, 1, fit);
+        const StageReport report =
+            make({.joint = last_joint, .most_iterations = settings_->most_iterations}, 0, 1, fit);
         const Solution solution = solution_here(report);
         if (!unreadable(rows_, solution.known).empty())
             return before;
@@ -249,9 +233,9 @@ private:
     StageReport pass(bool by_prediction, Fit& fit) {
         const std::vector<FitStage> stages = stages_of(rows_, *settings_);
         const int count = static_cast<int>(stages.size());
-        FitInitialisation initialisation(rows_, point_,
-                                         [&](const FitStage& stage) { return make(stage, 0, count + 1, fit); });
-        StageReport report = by_prediction ? initialisation.by_prediction() : initialisation.by_readings();
+        const FitMinimiser minimiser = [&](const FitStage& stage) { return make(stage, 0, count + 1, fit); };
+        StageReport report = by_prediction ? initialise_by_prediction(rows_, point_, minimiser)
+                                           : initialise_by_readings(rows_, point_, minimiser);
         for (int s = by_prediction ? 2 : 0; s + 1 < count && !report.interrupted; ++s) {
             FitStage stage = stages[static_cast<std::size_t>(s)];
             stage.prior = s == 0 ? prior_weight(rows_) : 0;
@@ -340,21 +324,8 @@ private:
     }
 
     bool tell(int stage, int stages, int iteration, double cost) const {
-        if (!settings_->progress)
-            return true;
-        FitProgress progress;
-        progress.stage = stage;
-        progress.stages = stages;
-        progress.iteration = iteration;
-        progress.misfit = std::sqrt(2 * cost / static_cast<double>(std::max<std::size_t>(1, readings())));
-        return settings_->progress(progress);
-    }
-
-    std::size_t readings() const {
-        std::size_t count = 0;
-        for (const FitRecord& record : rows_.task().records)
-            count += record.times.size() * record.readings.size();
-        return count;
+        const auto readings = static_cast<double>(std::max<std::size_t>(1, readings_of(rows_.task())));
+        return !settings_->progress || settings_->progress({stage, stages, iteration, std::sqrt(2 * cost / readings)});
     }
 
     void judge(const StageReport& report, const FitChecks& checks, Fit& fit) const {
@@ -418,6 +389,15 @@ private:
     double greatest_mismatch_ = 0; ///< its size, relative to the range of the readings
 };
 
+Fit fit_unless_interrupted(const System& system, const FitTask& task, const FitSettings& settings) {
+    try {
+        return Fitter(system, task, settings).run();
+    } catch (const FitInterruption&) { // interrupted before the starting point was complete
+        return {.ending = FitEnding::interrupted,
+                .detail = "the fit was ended before the first motions were known: " + extent_of(task)};
+    }
+}
+
 } // namespace
 
 const std::vector<std::string>& names_of_losses() {
@@ -426,39 +406,10 @@ const std::vector<std::string>& names_of_losses() {
 }
 
 std::string_view name_of(FitEnding ending) {
-    switch (ending) {
-    case FitEnding::converged:
-        return "converged";
-    case FitEnding::unfinished:
-        return "unfinished";
-    case FitEnding::interrupted:
-        return "interrupted";
-    case FitEnding::apart:
-        return "apart";
-    case FitEnding::broken:
-        return "broken";
-    case FitEnding::undetermined:
-        return "undetermined";
-    case FitEnding::misfit:
-        return "misfit";
-    }
-    return "";
+    static constexpr std::string_view names[]{"converged", "unfinished",   "interrupted", "apart",
+                                              "broken",    "undetermined", "misfit"};
+    return names[static_cast<std::size_t>(ending)];
 }
-
-namespace {
-
-Fit fit_unless_interrupted(const System& system, const FitTask& task, const FitSettings& settings) {
-    try {
-        return Fitter(system, task, settings).run();
-    } catch (const FitInterruption&) { // interrupted before the starting point was complete
-        Fit fit;
-        fit.ending = FitEnding::interrupted;
-        fit.detail = "the fit was ended before the first motions were known: " + extent_of(task);
-        return fit;
-    }
-}
-
-} // namespace
 
 Fit fit_model(const System& system, const FitTask& task, const FitSettings& settings) {
     require_task(system, task, settings);

@@ -41,22 +41,20 @@ Residuals residuals_of(const FitRows& rows, const std::vector<PieceRows>& known)
     return residuals;
 }
 
-std::size_t unknowns_of(const FitRows& rows) {
-    auto count = static_cast<std::size_t>(rows.layout.shared());
-    for (const FitRecord& record : rows.task().records)
-        count += record.unknown_states.size();
-    return count;
-}
-
-std::size_t readings_of(const FitTask& task) {
-    std::size_t count = 0;
-    for (const FitRecord& record : task.records)
-        count += record.times.size() * record.readings.size();
-    return count;
+/// Degrees of freedom: readings less unknowns.
+double freedom_of(const FitTask& task) {
+    return static_cast<double>(readings_of(task)) - static_cast<double>(unknowns_of(task));
 }
 
 double square_sum(const std::vector<double>& values) {
     return std::transform_reduce(values.begin(), values.end(), 0.0, std::plus<>(), [](double x) { return x * x; });
+}
+
+bool is_at_bound(const FitRows& rows, const FitPoint& point, std::size_t parameter) {
+    const UnknownParameter& unknown = rows.task().parameters[parameter];
+    const auto column = static_cast<Eigen::Index>(parameter);
+    const double scale = rows.layout.shared_scale[column], value = point.shared[column] * scale, near = 1e-9 * scale;
+    return value - unknown.least <= near || unknown.greatest - value <= near;
 }
 
 /// The fitted numbers in the order of FitInformation: initial states first, then shared ones.
@@ -65,43 +63,30 @@ std::vector<FittedNumber> numbers_at(const FitRows& rows, const FitPoint& point,
     const FitLayout& layout = rows.layout;
     const Model& model = rows.system().model();
     std::vector<FittedNumber> numbers;
-    for (std::size_t k = 0; k < layout.pieces.size(); ++k) {
-        if (!layout.pieces[k].is_first)
-            continue;
-        const FitRecord& record = task.records[layout.pieces[k].record];
-        for (std::size_t c = 0; c < record.unknown_states.size(); ++c) {
-            const std::size_t i = record.unknown_states[c];
-            FittedNumber number;
-            number.kind = FittedNumber::Kind::state;
-            number.name = task.records.size() == 1
-                              ? fmt::format("{}(0)", model.states[i].name)
-                              : fmt::format("{}(0) of record {}", model.states[i].name, layout.pieces[k].record + 1);
-            number.unit = model.states[i].unit;
-            number.record = layout.pieces[k].record;
-            number.index = i;
+    for (std::size_t k = 0; k < layout.pieces.size(); ++k)
+        for (Eigen::Index c = 0; layout.pieces[k].is_first && c < point.states[k].size(); ++c) {
+            const std::size_t r = layout.pieces[k].record, i = layout.state_of(task, layout.pieces[k], c);
+            const std::string of_record = task.records.size() == 1 ? "" : fmt::format(" of record {}", r + 1);
             scales.push_back(layout.state_scale[static_cast<Eigen::Index>(i)]);
-            number.estimate.value = point.states[k][static_cast<Eigen::Index>(c)] * scales.back();
-            numbers.push_back(std::move(number));
+            numbers.push_back({FittedNumber::Kind::state,
+                               model.states[i].name + "(0)" + of_record,
+                               model.states[i].unit,
+                               r,
+                               i,
+                               {point.states[k][c] * scales.back(), 0, 0}});
         }
-    }
+    const std::size_t states = numbers.size();
     Eigen::Index column = 0;
-    const auto add = [&](FittedNumber::Kind kind, std::string name, std::string unit, std::size_t index) {
-        FittedNumber number;
-        number.kind = kind;
-        number.name = std::move(name);
-        number.unit = std::move(unit);
-        number.index = index;
+    const auto add = [&](FittedNumber::Kind kind, const std::string& name, const std::string& unit, std::size_t index) {
         scales.push_back(layout.shared_scale[column]);
-        number.estimate.value = point.shared[column++] * scales.back();
-        numbers.push_back(std::move(number));
+        numbers.push_back({kind, name, unit, 0, index, {point.shared[column++] * scales.back(), 0, 0}});
     };
     const std::vector<std::string> names = model.independent_parameters();
     for (const UnknownParameter& unknown : task.parameters) {
         const std::string& name = names[unknown.parameter.place()];
         add(FittedNumber::Kind::parameter, name, model.parameters[*model.find_parameter(name)].unit,
             unknown.parameter.place());
-        const double value = numbers.back().estimate.value, near = 1e-9 * scales.back();
-        numbers.back().at_bound = value - unknown.least <= near || unknown.greatest - value <= near;
+        numbers.back().at_bound = is_at_bound(rows, point, numbers.size() - 1 - states);
     }
     for (const std::size_t output : layout.gains)
         add(FittedNumber::Kind::gain, "gain of " + task.outputs[output].name, "", output);
@@ -135,14 +120,6 @@ double variance_of(const FitRows& rows, const Residuals& residuals, double freed
     return mean > 0 ? unit * unit * squares / freedom / (mean * mean) : 0;
 }
 
-std::string text_of_combination(const std::vector<FreeCombination::Part>& parts,
-                                const std::vector<FittedNumber>& numbers) {
-    std::string text;
-    for (const FreeCombination::Part& part : parts)
-        text += fmt::format("{}{} ({:+.3g} %)", text.empty() ? "" : ", ", numbers[part.number].name, part.change);
-    return text;
-}
-
 FreeCombination combination(const FitDecomposition& parts, Eigen::Index k, const std::vector<FittedNumber>& numbers,
                             const std::vector<double>& scales, const std::vector<std::size_t>& order) {
     constexpr double least = 0.01, negligible = 1e-6;
@@ -164,7 +141,9 @@ FreeCombination combination(const FitDecomposition& parts, Eigen::Index k, const
     }
     std::stable_sort(result.parts.begin(), result.parts.end(),
                      [](const auto& one, const auto& other) { return std::abs(one.change) > std::abs(other.change); });
-    result.text = text_of_combination(result.parts, numbers);
+    for (const FreeCombination::Part& part : result.parts)
+        result.text +=
+            fmt::format("{}{} ({:+.3g} %)", result.text.empty() ? "" : ", ", numbers[part.number].name, part.change);
     return result;
 }
 
@@ -215,8 +194,7 @@ void describe_outputs(const FitRows& rows, const Residuals& residuals, Fit& fit)
 double noise_of_output(const FitRows& rows, std::size_t output, std::vector<double> residuals) {
     if (const double given = rows.task().outputs[output].noise; given > 0)
         return given;
-    const auto readings = static_cast<double>(readings_of(rows.task()));
-    const double freed = (readings - static_cast<double>(unknowns_of(rows))) / readings;
+    const double freed = freedom_of(rows.task()) / static_cast<double>(readings_of(rows.task()));
     double noise = std::sqrt(square_sum(residuals) / (static_cast<double>(residuals.size()) * freed));
     if (rows.loss() != FitLoss::squares) { // the median is insensitive to outliers
         constexpr double of_normal = 1.4826;
@@ -277,7 +255,7 @@ void describe(FitRows& rows, const FitPoint& point, const std::vector<PieceRows>
     fit.records.assign(task.records.size(), {});
     const Residuals residuals = residuals_of(rows, known);
     fit.readings = readings_of(task);
-    fit.freedom = static_cast<double>(fit.readings) - static_cast<double>(unknowns_of(rows));
+    fit.freedom = freedom_of(task);
     fit.pieces = rows.layout.pieces.size();
     for (std::size_t r = 0; r < task.records.size(); ++r)
         for (std::size_t c = 0; c < task.records[r].readings.size(); ++c) {
@@ -338,8 +316,7 @@ FitChecks check_point(const FitRows& rows, const FitPoint& point, const std::vec
         checks.gap = std::max(checks.gap, rows.gap(piece, point.states[k + 1]).lpNorm<Eigen::Infinity>());
         checks.modes_agree = checks.modes_agree && piece.end_mode == pieces[k + 1].mode;
     }
-    const double freedom = static_cast<double>(readings_of(rows.task())) - static_cast<double>(unknowns_of(rows));
-    const double size = std::sqrt(squares / freedom);
+    const double size = std::sqrt(squares / freedom_of(rows.task()));
     checks.allowed_gap = std::max(negligible, part_of_noise * size);
     std::vector<double> scales;
     std::vector<bool> held;
@@ -364,13 +341,10 @@ FitChecks check_point(const FitRows& rows, const FitPoint& point, const std::vec
 }
 
 std::vector<int> parameters_at_bounds(const FitRows& rows, const FitPoint& point) {
-    std::vector<double> scales;
     std::vector<int> bounded;
-    for (const FittedNumber& number : numbers_at(rows, point, scales))
-        if (number.at_bound)
-            for (std::size_t j = 0; j < rows.task().parameters.size(); ++j)
-                if (rows.task().parameters[j].parameter.place() == number.index)
-                    bounded.push_back(static_cast<int>(j));
+    for (std::size_t j = 0; j < rows.task().parameters.size(); ++j)
+        if (is_at_bound(rows, point, j))
+            bounded.push_back(static_cast<int>(j));
     return bounded;
 }
 

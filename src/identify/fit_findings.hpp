@@ -39,4 +39,37 @@ bool is_exact(const FitRows& rows, const std::vector<PieceRows>& known);
 /// Returns the noise of each output: given, or estimated from its residuals.
 std::vector<double> noise_at(const FitRows& rows, const std::vector<PieceRows>& known);
 
+/// An alternative solution, as a point of the fit.
+struct FoundSolution {
+    AlternativeSolution solution;
+    FitPoint point;
+    std::vector<std::size_t> modes; ///< modes of its pieces
+    std::size_t changed_signs = 0;  ///< see `changed_signs_of`
+};
+
+/// Returns how many parameters and gains differ in sign from their guesses.
+std::size_t changed_signs_of(const FitTask& task, const std::vector<double>& shared);
+
+/// Searches for other solutions that fit the readings equally well: with the signs of up to three numbers changed,
+/// phases shifted by half a period, all states reflected, or by a symmetry that the model declares, alone or together
+/// with the signs of gains. Only numbers that differ from 0 by clearly more than their errors are considered.
+/// @param known all evaluated pieces at the point. @param fit with its numbers
+std::vector<FoundSolution> alternative_solutions(FitRows& rows, const FitPoint& point,
+                                                 const std::vector<PieceRows>& known, const Fit& fit);
+
+/// A channel that the model does not reproduce.
+struct FitMismatch {
+    std::size_t output = 0, record = 0;
+    double since = 0; ///< time from which on it differs
+    double size = 0;  ///< root mean square of the residuals, relative to the range of the readings
+    /// Ratio of readings to model values if they are proportional; otherwise 0.
+    double factor = 0;
+};
+
+/// Returns the channels whose residuals are far larger than those of a fit that may still converge. @param known the
+/// evaluated pieces, some of which may not be finite
+std::vector<FitMismatch> mismatches_of(const FitRows& rows, const std::vector<PieceRows>& known);
+/// Describes mismatches in one line; empty if there are none.
+std::string text_of(const std::vector<FitMismatch>& mismatches, const FitTask& task);
+
 } // namespace graze

@@ -3,9 +3,6 @@
 #include "base/decompositions.hpp"
 #include "base/linear_systems.hpp"
 
-#include <Eigen/Core>
-
-#include <algorithm>
 #include <cmath>
 
 namespace graze {

@@ -126,19 +126,30 @@ std::size_t usual_pieces(const System& system, const FitRecord& record) {
 
 } // namespace
 
+std::size_t readings_of(const FitTask& task) {
+    std::size_t count = 0;
+    for (const FitRecord& record : task.records)
+        count += record.times.size() * record.readings.size();
+    return count;
+}
+
+std::size_t unknowns_of(const FitTask& task) {
+    std::size_t count = task.parameters.size();
+    for (const MeasuredOutput& output : task.outputs)
+        count += (output.gain_unknown ? 1U : 0U) + (output.offset_unknown ? 1U : 0U);
+    for (const FitRecord& record : task.records)
+        count += record.unknown_states.size();
+    return count;
+}
+
 void require_task(const System& system, const FitTask& task, const FitSettings& settings) {
     require_parameters(system, task);
     require_outputs(task);
     if (task.records.empty())
         throw InputError("there is no record to fit", "give one or more");
-    std::size_t unknown = task.parameters.size(), readings = 0;
-    for (const MeasuredOutput& output : task.outputs)
-        unknown += (output.gain_unknown ? 1U : 0U) + (output.offset_unknown ? 1U : 0U);
-    for (const FitRecord& record : task.records) {
+    for (const FitRecord& record : task.records)
         require_record(system, task, record);
-        unknown += record.unknown_states.size();
-        readings += record.times.size() * record.readings.size();
-    }
+    const std::size_t unknown = unknowns_of(task), readings = readings_of(task);
     require_proportion(task);
     if (unknown == 0)
         throw InputError("there is no unknown to fit", "name a parameter, gain, offset or state that is not known");
@@ -178,16 +189,14 @@ std::vector<FitPiece> cut_records(const System& system, const FitTask& task, con
             }
             if (to <= from || to >= record.times.size())
                 continue;
-            FitPiece piece;
-            piece.record = r;
-            piece.is_first = from == 0;
-            piece.first = from == 0 ? 0 : from + 1;
-            piece.last = to + 1;
-            piece.begin = record.times[from];
-            piece.end = record.times[to];
-            piece.mode = record.mode;
-            piece.has_next = to + 1 < record.times.size();
-            pieces.push_back(piece);
+            pieces.push_back({.record = r,
+                              .first = from == 0 ? 0 : from + 1,
+                              .last = to + 1,
+                              .begin = record.times[from],
+                              .end = record.times[to],
+                              .mode = record.mode,
+                              .has_next = to + 1 < record.times.size(),
+                              .is_first = from == 0});
             from = to;
         }
     }

@@ -34,11 +34,20 @@ struct FitLayout {
     Eigen::VectorXd shared_scale, state_scale;
 
     Eigen::Index shared() const { return static_cast<Eigen::Index>(parameters + gains.size() + offsets.size()); }
+    /// The state that is a piece's unknown number `column`.
+    static std::size_t state_of(const FitTask& task, const FitPiece& piece, Eigen::Index column) {
+        const auto place = static_cast<std::size_t>(column);
+        return piece.is_first ? task.records[piece.record].unknown_states[place] : place;
+    }
     /// Number of unknown initial states of a piece.
     Eigen::Index unknown_states(const FitTask& task, const FitPiece& piece) const {
         return static_cast<Eigen::Index>(piece.is_first ? task.records[piece.record].unknown_states.size() : states);
     }
 };
+
+/// Number of all readings of a task, and of its unknowns.
+std::size_t readings_of(const FitTask& task);
+std::size_t unknowns_of(const FitTask& task);
 
 /// Checks a task and its settings. @throws InputError for an invalid task (see fit_model)
 void require_task(const System& system, const FitTask& task, const FitSettings& settings);

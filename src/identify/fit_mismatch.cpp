@@ -1,4 +1,4 @@
-#include "identify/fit_mismatch.hpp"
+#include "identify/fit_findings.hpp"
 
 #include <fmt/format.h>
 
@@ -69,16 +69,11 @@ std::vector<FitMismatch> mismatches_of(const FitRows& rows, const std::vector<Pi
             const double limit = much * rows.range(output);
             if (count < window || !(mean_square(all.left, 0, count) > limit * limit))
                 continue;
-            FitMismatch one;
-            one.output = output;
-            one.record = r;
-            one.size = std::sqrt(mean_square(all.left, 0, count)) / rows.range(output);
-            one.factor = factor_of(all);
             std::size_t first = 0;
             while (first + window < count && !(mean_square(all.left, first, first + window) > limit * limit))
                 ++first;
-            one.since = all.times[first];
-            found.push_back(one);
+            found.push_back({output, r, all.times[first],
+                             std::sqrt(mean_square(all.left, 0, count)) / rows.range(output), factor_of(all)});
         }
     std::stable_sort(found.begin(), found.end(),
                      [](const FitMismatch& one, const FitMismatch& other) { return one.size > other.size; });

@@ -4,8 +4,6 @@
 #include "base/median.hpp"
 #include "graze/base/input_error.hpp"
 
-#include <Eigen/Core>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -143,37 +141,30 @@ std::vector<double> FitRows::parameters(std::size_t record, const Eigen::VectorX
     return values;
 }
 
+/// The value of an output's gain or offset: fitted if it is among `unknown`, whose first column this is.
+double FitRows::fitted_or(double given, std::size_t output, const std::vector<std::size_t>& unknown, std::size_t first,
+                          const Eigen::VectorXd& shared) const {
+    const auto found = std::find(unknown.begin(), unknown.end(), output);
+    const auto column = static_cast<Eigen::Index>(first) + (found - unknown.begin());
+    return found == unknown.end() ? given : shared[column] * layout.shared_scale[column];
+}
+
 double FitRows::gain(std::size_t output, const Eigen::VectorXd& shared) const {
-    for (std::size_t k = 0; k < layout.gains.size(); ++k)
-        if (layout.gains[k] == output) {
-            const auto column = static_cast<Eigen::Index>(layout.parameters + k);
-            return shared[column] * layout.shared_scale[column];
-        }
-    return task_->outputs[output].gain;
+    return fitted_or(task_->outputs[output].gain, output, layout.gains, layout.parameters, shared);
 }
 
 double FitRows::offset(std::size_t output, const Eigen::VectorXd& shared) const {
-    for (std::size_t k = 0; k < layout.offsets.size(); ++k)
-        if (layout.offsets[k] == output) {
-            const auto column = static_cast<Eigen::Index>(layout.parameters + layout.gains.size() + k);
-            return shared[column] * layout.shared_scale[column];
-        }
-    return task_->outputs[output].offset;
+    return fitted_or(task_->outputs[output].offset, output, layout.offsets, layout.parameters + layout.gains.size(),
+                     shared);
 }
 
 std::vector<double> FitRows::first_state(const FitPiece& piece, const Eigen::VectorXd& shared,
                                          const Eigen::VectorXd& states) {
-    std::vector<double> state(layout.states);
-    if (!piece.is_first) {
-        for (std::size_t i = 0; i < state.size(); ++i)
-            state[i] = states[static_cast<Eigen::Index>(i)] * layout.state_scale[static_cast<Eigen::Index>(i)];
-        return state;
+    std::vector<double> state = piece.is_first ? model_start(piece.record, shared) : std::vector<double>(layout.states);
+    for (Eigen::Index c = 0; c < states.size(); ++c) {
+        const std::size_t i = layout.state_of(*task_, piece, c);
+        state[i] = states[c] * layout.state_scale[static_cast<Eigen::Index>(i)];
     }
-    state = model_start(piece.record, shared);
-    const std::vector<std::size_t>& unknown = task_->records[piece.record].unknown_states;
-    for (std::size_t k = 0; k < unknown.size(); ++k)
-        state[unknown[k]] =
-            states[static_cast<Eigen::Index>(k)] * layout.state_scale[static_cast<Eigen::Index>(unknown[k])];
     return state;
 }
 
@@ -218,17 +209,11 @@ const PredictedMotion& FitRows::motion(const FitPiece& piece, const Eigen::Vecto
                 seeds[i * count + layout.states + j] -= turns * period_slopes_[i * layout.parameters + j];
         }
     std::copy(values.begin(), values.end(), inputs_.begin() + static_cast<std::ptrdiff_t>(layout.states));
-    MotionPiece asked;
-    asked.state = state;
-    asked.seeds = seeds;
-    asked.mode = piece.mode;
-    asked.begin = piece.begin;
-    asked.end = piece.end;
-    asked.times = std::span(task_->records[piece.record].times).subspan(piece.first, piece.last - piece.first);
-    asked.reach = reach_;
+    const std::span<const double> times = task_->records[piece.record].times;
     if (motion_.is_interrupted())
         throw FitInterruption();
-    const PredictedMotion& followed = motion_.follow(asked);
+    const PredictedMotion& followed = motion_.follow({state, seeds, piece.mode, piece.begin, piece.end,
+                                                      times.subspan(piece.first, piece.last - piece.first), reach_});
     if (motion_.is_interrupted())
         throw FitInterruption();
     return followed;
@@ -283,10 +268,23 @@ double FitRows::scale_of(const FitPiece& piece, Eigen::Index column) const {
     const Eigen::Index states = layout.unknown_states(*task_, piece);
     if (column >= states)
         return layout.shared_scale[column - states];
-    const std::size_t state = piece.is_first
-                                  ? task_->records[piece.record].unknown_states[static_cast<std::size_t>(column)]
-                                  : static_cast<std::size_t>(column);
-    return layout.state_scale[static_cast<Eigen::Index>(state)];
+    return layout.state_scale[static_cast<Eigen::Index>(layout.state_of(*task_, piece, column))];
+}
+
+/// Fills the part of a row with derivatives by initial states and parameters. @param slope the derivatives by all of
+/// them, unscaled. @param made the entry of a derivative and the scale of its unknown
+template <class Row, class Made>
+void FitRows::fill(Row row, const FitPiece& piece, const double* slope, const Made& made) const {
+    const auto& known = task_->records[piece.record].known;
+    const Eigen::Index states = layout.unknown_states(*task_, piece);
+    for (Eigen::Index c = 0; c < states; ++c)
+        row[c] = made(slope[layout.state_of(*task_, piece, c)], scale_of(piece, c));
+    for (std::size_t j = 0; j < layout.parameters; ++j) {
+        const Eigen::Index c = states + static_cast<Eigen::Index>(j);
+        const bool own = std::any_of(known.begin(), known.end(),
+                                     [&](const auto& one) { return one.first == task_->parameters[j].parameter; });
+        row[c] = own ? 0 : made(slope[layout.states + j], scale_of(piece, c));
+    }
 }
 
 void FitRows::add_time(const FitPiece& piece, std::size_t sample, const Eigen::VectorXd& shared, Eigen::Index row) {
@@ -301,19 +299,8 @@ void FitRows::add_time(const FitPiece& piece, std::size_t sample, const Eigen::V
         rows_.residuals.push_back(residual);
         const Costed costed = root_cost_of(residual / noise[o], loss());
         const double weight = size * costed.slope / noise[o];
-        const double* slope = &side_.slopes[o * count];
-        for (Eigen::Index c = 0; c < states; ++c) {
-            const std::size_t state =
-                piece.is_first ? record.unknown_states[static_cast<std::size_t>(c)] : static_cast<std::size_t>(c);
-            raw_(row, c) = weight * factor * slope[state] * scale_of(piece, c);
-        }
-        for (std::size_t j = 0; j < layout.parameters; ++j) {
-            const Eigen::Index c = states + static_cast<Eigen::Index>(j);
-            const ParameterId parameter = task_->parameters[j].parameter;
-            const bool own = std::any_of(record.known.begin(), record.known.end(),
-                                         [&](const auto& known) { return known.first == parameter; });
-            raw_(row, c) = own ? 0 : weight * factor * slope[layout.states + j] * scale_of(piece, c);
-        }
+        fill(raw_.row(row), piece, &side_.slopes[o * count],
+             [&](double slope, double scale) { return weight * factor * slope * scale; });
         Eigen::Index c = states + static_cast<Eigen::Index>(layout.parameters);
         for (const std::size_t output : layout.gains) {
             raw_(row, c) = output == o ? weight * side_.values[o] * scale_of(piece, c) : 0;
@@ -330,24 +317,12 @@ void FitRows::add_time(const FitPiece& piece, std::size_t sample, const Eigen::V
 
 void FitRows::add_ends(const FitPiece& piece, const PredictedMotion& predicted) {
     const std::size_t count = layout.states + layout.parameters;
-    const FitRecord& record = task_->records[piece.record];
-    const Eigen::Index states = layout.unknown_states(*task_, piece), last = raw_.cols() - 1;
     rows_.ends.setZero(static_cast<Eigen::Index>(layout.states), raw_.cols());
     for (Eigen::Index i = 0; i < rows_.ends.rows(); ++i) {
-        const double* slope = &predicted.end_derivatives[static_cast<std::size_t>(i) * count];
-        for (Eigen::Index c = 0; c < states; ++c) {
-            const std::size_t state =
-                piece.is_first ? record.unknown_states[static_cast<std::size_t>(c)] : static_cast<std::size_t>(c);
-            rows_.ends(i, c) = slope[state] * scale_of(piece, c) / layout.state_scale[i];
-        }
-        for (std::size_t j = 0; j < layout.parameters; ++j) {
-            const Eigen::Index c = states + static_cast<Eigen::Index>(j);
-            const ParameterId parameter = task_->parameters[j].parameter;
-            const bool own = std::any_of(record.known.begin(), record.known.end(),
-                                         [&](const auto& known) { return known.first == parameter; });
-            rows_.ends(i, c) = own ? 0 : slope[layout.states + j] * scale_of(piece, c) / layout.state_scale[i];
-        }
-        rows_.ends(i, last) = predicted.end_state[static_cast<std::size_t>(i)] / layout.state_scale[i];
+        const auto state = static_cast<std::size_t>(i);
+        fill(rows_.ends.row(i), piece, &predicted.end_derivatives[state * count],
+             [&](double slope, double scale) { return slope * scale / layout.state_scale[i]; });
+        rows_.ends(i, rows_.ends.cols() - 1) = predicted.end_state[state] / layout.state_scale[i];
     }
 }
 

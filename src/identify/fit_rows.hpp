@@ -77,6 +77,12 @@ public:
     std::vector<double> model_start(std::size_t record, const Eigen::VectorXd& shared);
     /// Values of all independent parameters for a record.
     std::vector<double> parameters(std::size_t record, const Eigen::VectorXd& shared) const;
+    /// Inputs of the model's functions: a state, and the parameters of a record.
+    std::vector<double> inputs(std::size_t record, std::vector<double> state, const Eigen::VectorXd& shared) const {
+        const std::vector<double> values = parameters(record, shared);
+        state.insert(state.end(), values.begin(), values.end());
+        return state;
+    }
     const PredictedMotion& motion(const FitPiece& piece, const Eigen::VectorXd& shared, const Eigen::VectorXd& states);
 
 private:
@@ -86,6 +92,10 @@ private:
     void read(std::span<const double> state, std::span<const double> derivatives, Side& side);
     void find_period_slopes(std::span<const double> parameters);
     bool is_beyond(const FitRecord& record, std::size_t sample, const Eigen::VectorXd& shared) const;
+    double fitted_or(double given, std::size_t output, const std::vector<std::size_t>& unknown, std::size_t first,
+                     const Eigen::VectorXd& shared) const;
+    template <class Row, class Made>
+    void fill(Row row, const FitPiece& piece, const double* slope, const Made& made) const;
     void add_time(const FitPiece& piece, std::size_t sample, const Eigen::VectorXd& shared, Eigen::Index row);
     void add_ends(const FitPiece& piece, const PredictedMotion& predicted);
     double scale_of(const FitPiece& piece, Eigen::Index column) const;

@@ -5,13 +5,12 @@
 #include <ceres/cost_function.h>
 #include <ceres/iteration_callback.h>
 #include <ceres/manifold.h>
+#include <ceres/normal_prior.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <vector>
 
 namespace graze {
 
@@ -108,29 +107,6 @@ private:
     mutable PieceRows known_;
 };
 
-/// Soft prior: penalises moving unknowns from their present values.
-class PriorCost : public ceres::CostFunction {
-public:
-    PriorCost(Eigen::VectorXd at, double weight) : at_(std::move(at)), weight_(weight) {
-        mutable_parameter_block_sizes()->push_back(static_cast<int>(at_.size()));
-        set_num_residuals(static_cast<int>(at_.size()));
-    }
-    bool Evaluate(const double* const* numbers, double* residuals, double** slopes) const override {
-        Eigen::Map<Eigen::VectorXd>(residuals, at_.size()) =
-            weight_ * (Eigen::Map<const Eigen::VectorXd>(numbers[0], at_.size()) - at_);
-        if (slopes != nullptr && slopes[0] != nullptr) {
-            Eigen::Map<RowMatrix> slope(slopes[0], at_.size(), at_.size());
-            slope.setZero();
-            slope.diagonal().setConstant(weight_);
-        }
-        return true;
-    }
-
-private:
-    Eigen::VectorXd at_;
-    double weight_;
-};
-
 class ProgressCallback : public ceres::IterationCallback {
 public:
     ProgressCallback(const StageProgress& progress, const FitPoint& point) : progress_(&progress), point_(&point) {}
@@ -162,8 +138,10 @@ StageReport minimise(FitRows& rows, FitPoint& point, const FitStage& stage, cons
     const std::vector<FitPiece>& pieces = rows.layout.pieces;
     const auto is_active = [&](std::size_t k) { return stage.active.empty() || stage.active[k]; };
     const auto hold = [&](Eigen::VectorXd& block) {
-        if (stage.prior > 0 && block.size() > 0)
-            problem.AddResidualBlock(new PriorCost(block, stage.prior), nullptr, block.data());
+        if (stage.prior > 0 && block.size() > 0) // a soft prior: penalises moving unknowns from their present values
+            problem.AddResidualBlock(
+                new ceres::NormalPrior(stage.prior * ceres::Matrix::Identity(block.size(), block.size()), block),
+                nullptr, block.data());
     };
     Eigen::Index unknowns = point.shared.size();
     bool possible = true;

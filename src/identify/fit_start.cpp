@@ -18,12 +18,10 @@ public:
     }
 
     /// Whether a state violates no barrier of the mode.
-    bool is_admissible(std::size_t mode, std::span<const double> state, std::span<const double> parameters) {
-        const System::CompiledMode& compiled = system_.mode(mode);
-        std::vector<double> inputs(state.begin(), state.end());
-        inputs.insert(inputs.end(), parameters.begin(), parameters.end());
+    bool is_admissible(const FitPiece& piece, const std::vector<double>& state, const Eigen::VectorXd& shared) {
+        const System::CompiledMode& compiled = system_.mode(piece.mode);
         values_.resize(compiled.events.outputs());
-        compiled.events.evaluate(inputs, values_, work_);
+        compiled.events.evaluate(rows_->inputs(piece.record, state, shared), values_, work_);
         for (std::size_t w = 0; w < compiled.watched.size(); ++w)
             if (system_.model().events[compiled.watched[w]].kind == EventKind::barrier && !(values_[w] >= 0))
                 return false;
@@ -33,7 +31,6 @@ public:
     /// Replaces states that an output shows directly by their readings, unless that would violate a barrier.
     void take_readings(const FitPiece& piece, std::size_t time, const Eigen::VectorXd& shared,
                        std::vector<double>& state) {
-        const std::vector<double> parameters = rows_->parameters(piece.record, shared);
         const FitTask& task = rows_->task();
         const FitRecord& record = task.records[piece.record];
         for (const FitRecord::Readings& readings : record.readings) {
@@ -47,10 +44,10 @@ public:
             if (!free)
                 continue;
             const double before = state[*index];
-            const bool well = is_admissible(piece.mode, state, parameters);
+            const bool well = is_admissible(piece, state, shared);
             state[*index] =
                 (readings.values[time] - rows_->offset(readings.output, shared)) / rows_->gain(readings.output, shared);
-            if (well && !is_admissible(piece.mode, state, parameters))
+            if (well && !is_admissible(piece, state, shared))
                 state[*index] = before;
         }
     }
@@ -92,13 +89,9 @@ void scale_by_effects(FitRows& rows, FitPoint& point) {
         const Eigen::Index own = point.states[k].size();
         for (Eigen::Index j = 0; j < shared.size(); ++j)
             shared[j] += known.readings.col(own + j).squaredNorm();
-        for (Eigen::Index c = 0; c < own; ++c) {
-            const Eigen::Index state =
-                piece.is_first ? static_cast<Eigen::Index>(
-                                     rows.task().records[piece.record].unknown_states[static_cast<std::size_t>(c)])
-                               : c;
-            states[state] += known.readings.col(c).squaredNorm();
-        }
+        for (Eigen::Index c = 0; c < own; ++c)
+            states[static_cast<Eigen::Index>(layout.state_of(rows.task(), piece, c))] +=
+                known.readings.col(c).squaredNorm();
     }
     for (Eigen::Index j = 0; j < shared.size(); ++j)
         if (no_shared[static_cast<std::size_t>(j)])
@@ -144,7 +137,7 @@ FitPoint starting_point(FitRows& rows) {
     for (std::size_t k = 0; k < layout.pieces.size(); ++k) {
         FitPiece& piece = layout.pieces[k];
         const FitRecord& record = task.records[piece.record];
-        const auto unknown = static_cast<Eigen::Index>(piece.is_first ? record.unknown_states.size() : layout.states);
+        const Eigen::Index unknown = layout.unknown_states(task, piece);
         Eigen::VectorXd states(unknown);
         if (piece.is_first) {
             states.setZero();
@@ -156,8 +149,7 @@ FitPoint starting_point(FitRows& rows) {
         if (!piece.is_first || record.start.empty())
             reader.take_readings(piece, piece.is_first ? piece.first : piece.first - 1, point.shared, state);
         for (Eigen::Index c = 0; c < unknown; ++c)
-            states[c] = state[piece.is_first ? record.unknown_states[static_cast<std::size_t>(c)]
-                                             : static_cast<std::size_t>(c)];
+            states[c] = state[layout.state_of(task, piece, c)];
         point.states.push_back(states);
         firsts.push_back(state);
         const PredictedMotion& motion = rows.motion(piece, point.shared, states);
@@ -174,9 +166,7 @@ FitPoint starting_point(FitRows& rows) {
     for (std::size_t k = 0; k < layout.pieces.size(); ++k) {
         const FitPiece& piece = layout.pieces[k];
         for (Eigen::Index c = 0; c < point.states[k].size(); ++c) {
-            const std::size_t i = piece.is_first
-                                      ? task.records[piece.record].unknown_states[static_cast<std::size_t>(c)]
-                                      : static_cast<std::size_t>(c);
+            const std::size_t i = layout.state_of(task, piece, c);
             const double size = sizes[static_cast<Eigen::Index>(i)];
             point.states[k][c] = size > 0 ? firsts[k][i] / size : 0;
         }

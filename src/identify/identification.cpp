@@ -6,7 +6,6 @@
 #include "graze/identify/impedance.hpp"
 #include "graze/identify/residual_test.hpp"
 #include "graze/identify/restitution.hpp"
-#include "graze/record/impacts.hpp"
 #include "identify/common_units.hpp"
 #include "identify/estimate_checks.hpp"
 #include "identify/impact_proportion.hpp"
@@ -25,10 +24,6 @@ namespace {
 
 constexpr std::size_t most_samples = 10'000'000;
 
-std::string name_or(const std::string& given, const char* usual) {
-    return given.empty() ? usual : given;
-}
-
 /// Fills in the diagonal of the covariance matrix.
 void set_variances(Identification& found) {
     const std::size_t count = found.values.size();
@@ -41,15 +36,15 @@ double mean_of(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Passes samples on, and refuses records without rows and numbers whose squares and ratios would overflow or
+/// A record in common units; refuses records without rows and numbers whose squares and ratios would overflow or
 /// underflow.
-class UsableSource : public SampleSource {
+class UsableSource : public CommonUnitSource {
 public:
-    UsableSource(SampleSource& source, std::vector<std::size_t> channels)
-        : source_(&source), channels_(std::move(channels)), greatest_(channels_.size()) {}
-    const RecordHeader& header() const override { return source_->header(); }
+    UsableSource(SampleSource& source, CommonUnits& units, const std::vector<std::size_t>& channels,
+                 Times times = Times::common)
+        : CommonUnitSource(source, units, channels, times), channels_(channels), greatest_(channels.size()) {}
     bool read(Samples& samples) override {
-        const bool more = source_->read(samples);
+        const bool more = CommonUnitSource::read(samples);
         if (samples.rows() > 0 && !has_rows_)
             first_ = samples.times.front();
         has_rows_ = has_rows_ || samples.rows() > 0;
@@ -77,7 +72,6 @@ private:
             fmt::format("use another unit (scale {}={:.0e})", name, std::min(1 / value, 1e300)));
     }
 
-    SampleSource* source_;
     std::vector<std::size_t> channels_;
     std::vector<double> greatest_; ///< largest magnitudes so far
     double first_ = 0, last_ = 0;
@@ -111,6 +105,23 @@ void require_impacts(const std::string& name, const std::string& channel, const 
                          "stop");
 }
 
+/// The measured current in the first periods of a record, with its fitted sine.
+Identification::Shown shown_current(const Samples& all, std::size_t current, const Impedance& one) {
+    constexpr double periods = 3;
+    const double middle = 0.5 * (all.times.front() + all.times.back());
+    Identification::Shown shown;
+    for (std::size_t i = 0; i < all.rows(); ++i) {
+        const double t = all.times[i];
+        if (t > all.times.front() + periods * 2 * std::numbers::pi / one.frequency)
+            break;
+        const double value = one.current.at(t - middle);
+        shown.measured.add(t, all.values[current][i]);
+        shown.fitted.add(t, value);
+        shown.left.add(t, all.values[current][i] - value);
+    }
+    return shown;
+}
+
 } // namespace
 
 Identification identify_decrement(const EachRecord& records, const IdentificationSettings& settings) {
@@ -121,9 +132,8 @@ Identification identify_decrement(const EachRecord& records, const Identificatio
     CommonUnits units;
     records([&](const std::string& name, SampleSource& record) {
         channel = record.header().channel(settings.channel, settings.asked_as + "channel");
-        CommonUnitSource common(record, units, {channel});
-        header = common.header();
-        UsableSource usable(common, {channel});
+        UsableSource usable(record, units, {channel});
+        header = usable.header();
         releases.push_back(decay_peaks(usable, channel, settings.peaks));
         names.push_back(name);
     });
@@ -161,12 +171,9 @@ Identification identify_decrement(const EachRecord& records, const Identificatio
         Identification::Shown& shown = found.shown.emplace_back();
         for (std::size_t k = 0; k < releases[r].times.size(); ++k) {
             const double t = releases[r].times[k] - first, height = decrement.fitted[r].heights[k];
-            shown.measured.x.push_back(t);
-            shown.measured.y.push_back(releases[r].heights[k]);
-            shown.fitted.x.push_back(decrement.fitted[r].times[k] - first);
-            shown.fitted.y.push_back(height);
-            shown.left.x.push_back(t);
-            shown.left.y.push_back(releases[r].heights[k] - height);
+            shown.measured.add(t, releases[r].heights[k]);
+            shown.fitted.add(decrement.fitted[r].times[k] - first, height);
+            shown.left.add(t, releases[r].heights[k] - height);
         }
     }
     return found;
@@ -186,9 +193,8 @@ Identification identify_restitution(const EachRecord& records, const Identificat
         std::vector used{of_impacts.velocity};
         if (of_impacts.displacement)
             used.push_back(*of_impacts.displacement);
-        CommonUnitSource common(record, units, used, CommonUnitSource::Times::as_they_are);
-        velocity = common.header().channels[of_impacts.velocity];
-        UsableSource usable(common, used);
+        UsableSource usable(record, units, used, UsableSource::Times::as_they_are);
+        velocity = usable.header().channels[of_impacts.velocity];
         VelocityWatch watched(usable, of_impacts.velocity);
         const std::vector<RecordedImpact> recorded = find_impacts(watched, of_impacts);
         for (const RecordedImpact& impact : recorded)
@@ -204,10 +210,8 @@ Identification identify_restitution(const EachRecord& records, const Identificat
         names.push_back(name);
         Identification::Shown& shown = found.shown.emplace_back();
         for (std::size_t i = 0; i < impacts.size(); ++i) {
-            shown.measured.x.push_back(impacts[i].before);
-            shown.measured.y.push_back(impacts[i].after);
-            shown.left.x.push_back(impacts[i].before);
-            shown.left.y.push_back(one.residuals[i]);
+            shown.measured.add(impacts[i].before, impacts[i].after);
+            shown.left.add(impacts[i].before, one.residuals[i]);
         }
     });
     if (sets.empty()) { // no record has three impacts: use one with two
@@ -215,10 +219,8 @@ Identification identify_restitution(const EachRecord& records, const Identificat
         names.emplace_back();
         Identification::Shown& shown = found.shown.emplace_back();
         for (const ImpactSpeeds& one : few) {
-            shown.measured.x.push_back(one.before);
-            shown.measured.y.push_back(one.after);
-            shown.left.x.push_back(one.before);
-            shown.left.y.push_back(one.after + sets.front().value * one.before);
+            shown.measured.add(one.before, one.after);
+            shown.left.add(one.before, one.after + sets.front().value * one.before);
         }
     }
     const Combined all = combine(sets);
@@ -246,30 +248,29 @@ Identification identify_coupling(const EachRecord& records, const Identification
     if (!settings.gap || !settings.stiffness)
         throw InputError("gap or stiffness are not known",
                          fmt::format("give {0}gap and {0}stiffness, in the units of the record", settings.asked_as));
+    const std::string place = settings.displacement.empty() ? "q" : settings.displacement;
     std::vector<StaticLoad> loads;
     Channel displacement, current;
     CommonUnits units;
     records([&](const std::string&, SampleSource& record) {
         const RecordHeader& header = record.header();
-        const std::size_t q = header.channel(name_or(settings.displacement, "q"), settings.asked_as + "displacement"),
+        const std::size_t q = header.channel(place, settings.asked_as + "displacement"),
                           i = header.channel(settings.current, settings.asked_as + "current");
-        CommonUnitSource common(record, units, {q, i}, CommonUnitSource::Times::as_they_are);
-        displacement = common.header().channels[q];
-        current = common.header().channels[i];
-        UsableSource usable(common, {q, i});
+        UsableSource usable(record, units, {q, i}, UsableSource::Times::as_they_are);
+        displacement = usable.header().channels[q];
+        current = usable.header().channels[i];
         const Samples all = read_all(usable, most_samples);
         if (settings.one_load_a_record)
             loads.push_back({mean_of(all.values[q]), mean_of(all.values[i])});
         for (std::size_t row = 0; row < all.rows() && !settings.one_load_a_record; ++row)
             loads.push_back({all.values[q][row], all.values[i][row]});
     });
-    CouplingSettings known;
-    known.gap = *settings.gap;
-    known.gap_error = settings.gap_error;
-    known.stiffness = *settings.stiffness;
-    known.stiffness_error = settings.stiffness_error;
-    known.displacement_noise = settings.displacement_noise;
-    known.current_noise = settings.current_noise;
+    const CouplingSettings known{*settings.gap,
+                                 settings.gap_error,
+                                 *settings.stiffness,
+                                 settings.stiffness_error,
+                                 settings.displacement_noise,
+                                 settings.current_noise};
     const Coupling constants = coupling(loads, known);
     const std::string &length = displacement.unit, &ampere = current.unit;
     // The stiffness is in N/m if lengths are in m.
@@ -293,46 +294,18 @@ Identification identify_coupling(const EachRecord& records, const Identification
     Identification::Shown& shown = found.shown.emplace_back();
     double furthest = 0;
     for (std::size_t i = 0; i < loads.size(); ++i) {
-        shown.measured.x.push_back(loads[i].current);
-        shown.measured.y.push_back(loads[i].displacement);
-        shown.left.x.push_back(loads[i].current);
-        shown.left.y.push_back(constants.residuals[i]);
+        shown.measured.add(loads[i].current, loads[i].displacement);
+        shown.left.add(loads[i].current, constants.residuals[i]);
         furthest = std::max(furthest, loads[i].displacement);
     }
     constexpr int points = 200;
     for (int i = 0; i <= points && constants.beta1.value > 0; ++i) {
         const double q = furthest * i / points;
-        shown.fitted.x.push_back((known.gap + constants.beta2.value - q) *
-                                 std::sqrt(2 * known.stiffness * q / constants.beta1.value));
-        shown.fitted.y.push_back(q);
+        shown.fitted.add(
+            (known.gap + constants.beta2.value - q) * std::sqrt(2 * known.stiffness * q / constants.beta1.value), q);
     }
     return found;
 }
-
-namespace {
-
-/// The measured current in the first periods of a record, with its fitted sine.
-Identification::Shown shown_current(const Samples& all, std::size_t current, const Impedance& one) {
-    constexpr double periods = 3;
-    const double middle = 0.5 * (all.times.front() + all.times.back());
-    Identification::Shown shown;
-    for (std::size_t i = 0; i < all.rows(); ++i) {
-        const double t = all.times[i];
-        if (t > all.times.front() + periods * 2 * std::numbers::pi / one.frequency)
-            break;
-        const double angle = one.frequency * (t - middle);
-        const double value =
-            one.current.offset + one.current.sine * std::sin(angle) + one.current.cosine * std::cos(angle);
-        for (auto [curve, y] : {std::pair{&shown.measured, all.values[current][i]}, std::pair{&shown.fitted, value},
-                                std::pair{&shown.left, all.values[current][i] - value}}) {
-            curve->x.push_back(t);
-            curve->y.push_back(y);
-        }
-    }
-    return shown;
-}
-
-} // namespace
 
 Identification identify_impedance(const EachRecord& records, const IdentificationSettings& settings) {
     const std::string& asked = settings.asked_as;
@@ -347,9 +320,8 @@ Identification identify_impedance(const EachRecord& records, const Identificatio
     records([&](const std::string& name, SampleSource& record) {
         const std::size_t v = record.header().channel(settings.voltage, asked + "voltage"),
                           c = record.header().channel(settings.current, asked + "current");
-        CommonUnitSource common(record, units, {v, c});
-        const RecordHeader& header = common.header();
-        UsableSource usable(common, {v, c});
+        UsableSource usable(record, units, {v, c});
+        const RecordHeader& header = usable.header();
         const Samples all = read_all(usable, most_samples);
         const Impedance one = impedance(all.times, all.values[v], all.values[c],
                                         settings.frequency ? 2 * std::numbers::pi * *settings.frequency : 0);

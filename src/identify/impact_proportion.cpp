@@ -1,12 +1,11 @@
 #include "identify/impact_proportion.hpp"
 
-#include "identify/chi_square.hpp"
+#include "graze/identify/estimate.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
-#include <vector>
 
 namespace graze {
 

@@ -3,7 +3,6 @@
 #include "graze/record/impacts.hpp"
 
 #include <span>
-#include <vector>
 
 namespace graze {
 

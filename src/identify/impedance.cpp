@@ -2,7 +2,6 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
-#include "graze/record/harmonic.hpp"
 #include "graze/record/period.hpp"
 #include "graze/record/spectrum.hpp"
 #include "identify/row_gap.hpp"
@@ -24,10 +23,9 @@ double frequency_of_crossings(std::span<const double> times, std::span<const dou
     samples.times.assign(times.begin(), times.end());
     samples.values.emplace_back(voltage.begin(), voltage.end());
     StoredSamples source({{"t", ""}, {{"voltage", ""}}}, std::move(samples));
-    PeriodSettings settings;
-    settings.level = std::accumulate(voltage.begin(), voltage.end(), 0.0) /
-                     static_cast<double>(std::max<std::size_t>(1, voltage.size()));
-    PeriodSplitter splitter(borrowed(source), settings);
+    const double level = std::accumulate(voltage.begin(), voltage.end(), 0.0) /
+                         static_cast<double>(std::max<std::size_t>(1, voltage.size()));
+    PeriodSplitter splitter(borrowed(source), {0, level});
     std::vector<double> crossings;
     for (Period period; splitter.next(period); crossings.push_back(period.end))
         if (crossings.empty())

@@ -1,4 +1,4 @@
-#include "identify/joined_descent.hpp"
+#include "identify/fit_solver.hpp"
 
 #include "base/decompositions.hpp"
 #include "graze/base/input_error.hpp"
@@ -9,10 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <utility>
-#include <vector>
 
 namespace graze {
 

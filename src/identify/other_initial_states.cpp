@@ -1,14 +1,11 @@
-#include "identify/other_initial_states.hpp"
+#include "identify/fit_start.hpp"
 
 #include "base/linear_systems.hpp"
 #include "graze/model/model.hpp"
 
-#include <Eigen/Core>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <span>
 
 namespace graze {
 

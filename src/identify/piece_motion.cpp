@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace graze {
 
@@ -18,6 +17,78 @@ bool all_finite(std::span<const double> values) {
 }
 
 } // namespace
+
+TangentEvaluator::Group::Group(const Simulation& simulation, std::size_t from_direction, std::size_t directions)
+    : first(from_direction), count(directions), jets(simulation.system(), simulation.order(), LaneKind::single),
+      steps(simulation.system(), simulation.options().tolerance, directions),
+      matrix(simulation.system().states() * directions), next(matrix.size()) {
+    jets.add_tangents();
+}
+
+TangentEvaluator::TangentEvaluator(const Simulation& simulation, std::size_t directions)
+    : states_(simulation.system().states()), directions_(directions) {
+    const std::size_t lanes = TangentSteps::together(directions);
+    for (std::size_t first = 0; first < directions; first += lanes)
+        groups_.push_back(std::make_unique<Group>(simulation, first, std::min(lanes, directions - first)));
+}
+
+void TangentEvaluator::set_parameters(std::span<const double> parameters, std::span<const double> seeds) {
+    for (const auto& group : groups_) {
+        std::vector<double> some(parameters.size() * group->count);
+        for (std::size_t j = 0; j < parameters.size(); ++j)
+            std::copy_n(&seeds[j * directions_ + group->first], group->count, &some[j * group->count]);
+        group->jets.set_parameters(parameters);
+        group->steps.set_parameters(parameters, some);
+    }
+}
+
+void TangentEvaluator::begin(std::size_t mode, std::span<const double> state, std::span<const double> matrix) {
+    mode_ = mode;
+    for (const auto& group : groups_) {
+        group->state.assign(state.begin(), state.end());
+        for (std::size_t i = 0; i < states_; ++i)
+            std::copy_n(&matrix[i * directions_ + group->first], group->count, &group->matrix[i * group->count]);
+        group->from = 0;
+        group->begun = false;
+    }
+}
+
+bool TangentEvaluator::follow(Group& group, double s) {
+    for (int part = 0; part < TangentSteps::most_parts; ++part) {
+        const double length = s - group.from;
+        if (length == 0) {
+            group.next = group.matrix;
+            return true;
+        }
+        if (!group.begun)
+            group.steps.begin(group.jets.computed(mode_, group.state), mode_, group.state, group.matrix);
+        group.begun = true;
+        const double made = group.steps.carry(group.jets.next(mode_), length, group.next);
+        if (made == length)
+            return true;
+        if (made == 0 || !std::isfinite(made))
+            return false;
+        group.state.assign(group.steps.state().begin(), group.steps.state().end());
+        group.matrix = group.next;
+        group.from += made;
+        group.begun = false;
+    }
+    return false;
+}
+
+bool TangentEvaluator::at(double s, std::span<double> state, std::span<double> matrix) {
+    for (const auto& group : groups_) {
+        if (!follow(*group, s))
+            return false;
+        const std::span<const double> here =
+            s == group->from ? std::span<const double>(group->state) : group->steps.state();
+        if (group == groups_.front())
+            std::copy(here.begin(), here.end(), state.begin());
+        for (std::size_t i = 0; i < states_; ++i)
+            std::copy_n(&group->next[i * group->count], group->count, &matrix[i * directions_ + group->first]);
+    }
+    return true;
+}
 
 /// Takes samples from the steps of a trajectory, and extrapolates beyond contacts.
 class PieceMotion::Watcher : public Observer {
@@ -97,10 +168,8 @@ private:
         const Transition& transition = owner_->simulation_.model().transitions[contact.transition];
         const System::CompiledJump& jump = system.jump(
             contact.kind == ContactKind::sticking && transition.chatter ? transition.chatter->jump : transition.jump);
-        std::vector<double> inputs(contact.before.begin(), contact.before.end()), work(system.workspace()),
-            values(system.jacobian_entries());
-        inputs.insert(inputs.end(), owner_->parameters_.begin(), owner_->parameters_.end());
-        jump.jacobian.evaluate(inputs, values, work);
+        std::vector<double> work(system.workspace()), values(system.jacobian_entries());
+        jump.jacobian.evaluate(owner_->inputs_of(contact.before), values, work);
         const auto states = static_cast<Eigen::Index>(state_.size());
         Eigen::MatrixXd map = Eigen::MatrixXd::Identity(states, states);
         for (const std::size_t i : jump.changed)
@@ -155,15 +224,19 @@ void PieceMotion::take(std::size_t sample, std::span<const double> state, std::s
     one.derivatives.assign(matrix.begin(), matrix.end());
 }
 
+const std::vector<double>& PieceMotion::inputs_of(std::span<const double> state) {
+    inputs_.assign(state.begin(), state.end());
+    inputs_.insert(inputs_.end(), parameters_.begin(), parameters_.end());
+    return inputs_;
+}
+
 /// Index of a watched barrier that the state violates; the number of events if there is none.
 std::size_t PieceMotion::violated(std::size_t mode, std::span<const double> state) {
     const System& system = simulation_.system();
     const System::CompiledMode& compiled = system.mode(mode);
-    inputs_.assign(state.begin(), state.end());
-    inputs_.insert(inputs_.end(), parameters_.begin(), parameters_.end());
     work_.resize(system.workspace());
     values_.resize(compiled.events.outputs());
-    compiled.events.evaluate(inputs_, values_, work_);
+    compiled.events.evaluate(inputs_of(state), values_, work_);
     for (std::size_t w = 0; w < compiled.watched.size(); ++w)
         if (simulation_.model().events[compiled.watched[w]].kind == EventKind::barrier && values_[w] < 0)
             return compiled.watched[w];
@@ -182,8 +255,7 @@ bool PieceMotion::find_side(const MotionPiece& piece, std::size_t event) {
     side_matrix_.assign(piece.seeds.begin(), piece.seeds.end());
     double aim = 0;
     for (int i = 0; i < most; ++i) {
-        inputs_.assign(side_state_.begin(), side_state_.end());
-        inputs_.insert(inputs_.end(), parameters_.begin(), parameters_.end());
+        inputs_of(side_state_);
         system.event(event).evaluate(inputs_, gradient, work_);
         system.mode(piece.mode).rates.evaluate(inputs_, rates, work_);
         if (i == 0)

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace graze {
 
@@ -26,18 +27,13 @@ constexpr double far_off = 6;                ///< outliers, in standard deviatio
 constexpr double negligible_residual = 1e-6; ///< smaller residuals, relative to the readings' deviation, are ignored
 
 double square_sum_of(std::span<const double> values) {
-    double sum = 0;
-    for (const double value : values)
-        sum += value * value;
-    return sum;
+    return std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
 }
 
 /// Correlation of neighbouring residuals, about zero.
 double neighbours_correlation(std::span<const double> left) {
-    double products = 0;
-    for (std::size_t i = 1; i < left.size(); ++i)
-        products += left[i] * left[i - 1];
-    const double squares = square_sum_of(left);
+    const double products = std::inner_product(left.begin() + 1, left.end(), left.begin(), 0.0),
+                 squares = square_sum_of(left);
     return squares > 0 ? products / squares : 0;
 }
 
@@ -68,18 +64,15 @@ struct Line {
 
 Line largest_line(std::span<const double> left) {
     const auto transform = half_transform(left);
-    Line line;
+    std::size_t highest = 0;
     double sum = 0, largest = 0;
     for (std::size_t k = 1; k < transform.size(); ++k) {
         const double size = std::norm(transform[k]);
         sum += size;
-        if (size > largest) {
-            largest = size;
-            line.number = k;
-        }
+        highest = size > largest ? k : highest;
+        largest = std::max(largest, size);
     }
-    line.height = sum > 0 ? largest / sum * static_cast<double>(transform.size() - 1) : 0;
-    return line;
+    return {highest, sum > 0 ? largest / sum * static_cast<double>(transform.size() - 1) : 0};
 }
 
 std::size_t count_far_off(std::span<const double> left) {

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <string>
 
@@ -12,7 +11,7 @@ namespace graze {
 
 /// Options of `BenchService`; some of them simulate faulty connections.
 struct ServiceSettings {
-    std::string port;       ///< name of the generator's serial line: a link to a pseudo-terminal
+    std::string port{};     ///< name of the generator's serial line: a link to a pseudo-terminal
     std::uint16_t tcp = 0;  ///< port on the loopback interface for samples; 0: any free one
     double speed = 1;       ///< simulated seconds per second
     bool on_demand = false; ///< simulated time passes only as samples are read, as fast as they can be computed

@@ -1,8 +1,8 @@
 #include "instrument/function_generator.hpp"
 
+#include "base/letter_case.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/trimmed.hpp"
-#include "instrument/generator_unit.hpp"
 #include "instrument/scpi_text.hpp"
 
 #include <fmt/format.h>
@@ -99,7 +99,7 @@ std::span<const FunctionGenerator::Command> FunctionGenerator::commands() {
     return known;
 }
 
-void FunctionGenerator::raise(int number) {
+void FunctionGenerator::note_error(int number) {
     events_ |= event_of(number);
     if (errors_.size() < most_errors)
         errors_.push_back(number);
@@ -107,13 +107,9 @@ void FunctionGenerator::raise(int number) {
         errors_.back() = -350;
 }
 
-void FunctionGenerator::note_error(int number) {
-    raise(number);
-}
-
 std::string FunctionGenerator::execute(std::string_view line) {
     if (line.size() > longest_line) {
-        raise(521);
+        note_error(521);
         return {};
     }
     std::string answers, path;
@@ -121,7 +117,7 @@ std::string FunctionGenerator::execute(std::string_view line) {
         return answers;
     for (std::string_view text : parts(line, ';')) {
         if (text.empty()) {
-            raise(-102);
+            note_error(-102);
             continue;
         }
         const auto is_wrong = [](char letter) {
@@ -129,15 +125,15 @@ std::string FunctionGenerator::execute(std::string_view line) {
                    static_cast<unsigned char>(letter) > 0x7f;
         };
         if (std::any_of(text.begin(), text.end(), is_wrong)) {
-            raise(-101);
+            note_error(-101);
             continue;
         }
         Unit unit;
         const std::size_t blank = std::min(text.find_first_of(" \t"), text.size());
-        unit.header = capitals(text.substr(0, blank));
+        unit.header = in_capitals(text.substr(0, blank));
         if (const std::string_view rest = trimmed(text.substr(blank)); !rest.empty())
             for (const std::string_view argument : parts(rest, ','))
-                unit.arguments.push_back(capitals(argument));
+                unit.arguments.push_back(in_capitals(argument));
         unit.query = unit.header.ends_with('?');
         if (unit.query)
             unit.header.pop_back();
@@ -163,14 +159,14 @@ void FunctionGenerator::execute_unit(Unit& unit) {
         const std::size_t count = unit.arguments.size();
         const bool of_limit = unit.query && count == 1 && (unit.arguments[0] == "MIN" || unit.arguments[0] == "MAX");
         if (unit.query ? count > 0 && !(of_limit && command.set) : count > command.most)
-            return raise(-108);
+            return note_error(-108);
         if (!unit.query && count < command.least)
-            return raise(-109);
+            return note_error(-109);
         if (!unit.query && !remote_ && !command.in_local)
-            return raise(550);
+            return note_error(550);
         return (this->*command.work)(unit);
     }
-    raise(-113);
+    note_error(-113);
 }
 
 void FunctionGenerator::remote(Unit& unit) {
@@ -192,7 +188,10 @@ void FunctionGenerator::common(Unit& unit) {
     } else if (name == "*IDN") {
         unit.answer = identity;
     } else if (name == "*RST") {
-        reset();
+        output_ = {};
+        high_load_ = false;
+        unit_ = VoltageUnit::vpp;
+        modulations_.clear();
     } else if (name == "*OPC" && !unit.query) {
         events_ |= operation_complete;
     } else if (name == "*OPC") {
@@ -204,20 +203,9 @@ void FunctionGenerator::common(Unit& unit) {
     }
 }
 
-void FunctionGenerator::reset() {
-    output_ = {};
-    high_load_ = false;
-    unit_ = VoltageUnit::vpp;
-    modulations_.clear();
-}
-
-double FunctionGenerator::shown_amplitude() const {
-    return shown_voltage(output_.amplitude * load_factor(), unit_, output_.shape);
-}
-
-/// Parses a number with its unit. @param least, most values of MIN and MAX @param value in Hz, or in V peak to peak
-/// @return false for an invalid number or unit
-bool FunctionGenerator::read_number(const std::string& text, bool is_frequency, double least, double most,
+/// Parses a number with its unit. @param least, most values of MIN and MAX @param unit of a voltage without one; none:
+/// it is a frequency @param value in Hz, or in V peak to peak. @return false for an invalid number or unit
+bool FunctionGenerator::read_number(const std::string& text, std::optional<VoltageUnit> unit, double least, double most,
                                     double& value) {
     if (is_form_of(text, "MINimum") || is_form_of(text, "MAXimum")) {
         value = text.starts_with("MIN") ? least : most;
@@ -227,20 +215,20 @@ bool FunctionGenerator::read_number(const std::string& text, bool is_frequency, 
     const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
     const auto [next, error] = std::from_chars(begin, end, value);
     if (error != std::errc() || !std::isfinite(value)) {
-        raise(error == std::errc::result_out_of_range ? -222 : -104);
+        note_error(error == std::errc::result_out_of_range ? -222 : -104);
         return false;
     }
     const std::string_view suffix = trimmed({next, static_cast<std::size_t>(end - next)});
     static constexpr std::array<std::pair<std::string_view, double>, 4> of_frequency{
         {{"", 1}, {"HZ", 1}, {"KHZ", 1e3}, {"MHZ", 1e6}}};
     for (const auto& [name, factor] : of_frequency)
-        if (is_frequency && name == suffix) {
+        if (!unit && name == suffix) {
             value *= factor;
             return true;
         }
-    if (!is_frequency && read_voltage(suffix, unit_, output_.shape, value))
+    if (unit && read_voltage(suffix, *unit, output_.shape, value))
         return true;
-    raise(-131);
+    note_error(-131);
     return false;
 }
 
@@ -248,13 +236,13 @@ bool FunctionGenerator::read_number(const std::string& text, bool is_frequency, 
 bool FunctionGenerator::set_voltages(double amplitude, double offset) {
     const double factor = load_factor();
     if (!GeneratorOutput::reaches(amplitude / factor)) {
-        raise(-222);
+        note_error(-222);
         return false;
     }
     const double room = std::max(0.0, most_voltage * factor - amplitude / 2);
     const double allowed = settings_.takes_offset ? std::min(room, 2 * amplitude) : 0;
     if (std::abs(offset) > allowed) {
-        raise(-221);
+        note_error(-221);
         offset = std::copysign(allowed, offset);
     }
     output_.amplitude = std::min(amplitude, settings_.clip) / factor;
@@ -266,8 +254,9 @@ void FunctionGenerator::apply(Unit& unit) {
     const double factor = load_factor();
     if (unit.query) {
         shape(unit);
-        unit.answer = fmt::format("\"{} {:+.12E},{:+.6E},{:+.6E}\"", unit.answer, output_.frequency, shown_amplitude(),
-                                  output_.offset * factor);
+        unit.answer =
+            fmt::format("\"{} {:+.12E},{:+.6E},{:+.6E}\"", unit.answer, output_.frequency,
+                        shown_voltage(output_.amplitude * factor, unit_, output_.shape), output_.offset * factor);
         return;
     }
     const WaveShape before = std::exchange(output_.shape, WaveShape::sine); // amplitudes refer to a sine
@@ -276,15 +265,14 @@ void FunctionGenerator::apply(Unit& unit) {
     const std::array<std::pair<double, double>, 3> limits{{{least_frequency, most_frequency},
                                                            {least_amplitude * factor, most_amplitude * factor},
                                                            {-most_voltage * factor, most_voltage * factor}}};
+    const std::optional<VoltageUnit> units[]{std::nullopt, unit_, VoltageUnit::vpp}; // an offset is in V
     bool good = true;
     for (std::size_t i = 0; i < unit.arguments.size() && good; ++i) {
-        const VoltageUnit unit_before = i == 2 ? std::exchange(unit_, VoltageUnit::vpp) : unit_; // an offset is in V
         good = is_form_of(unit.arguments[i], "DEFault") ||
-               read_number(unit.arguments[i], i == 0, limits[i].first, limits[i].second, values[i]);
-        unit_ = unit_before;
+               read_number(unit.arguments[i], units[i], limits[i].first, limits[i].second, values[i]);
     }
     if (good && !(values[0] >= least_frequency && values[0] <= most_frequency)) {
-        raise(-222);
+        note_error(-222);
         good = false;
     }
     if (!good || !set_voltages(values[1], values[2])) {
@@ -297,21 +285,22 @@ void FunctionGenerator::apply(Unit& unit) {
 
 void FunctionGenerator::frequency(Unit& unit) {
     double value = output_.frequency;
-    if (!unit.arguments.empty() && !read_number(unit.arguments[0], true, least_frequency, most_frequency, value))
+    if (!unit.arguments.empty() &&
+        !read_number(unit.arguments[0], std::nullopt, least_frequency, most_frequency, value))
         return;
     if (unit.query)
         unit.answer = fmt::format("{:+.12E}", value);
     else if (value >= least_frequency && value <= most_frequency)
         output_.frequency = value;
     else
-        raise(-222);
+        note_error(-222);
 }
 
 void FunctionGenerator::amplitude(Unit& unit) {
     const double factor = load_factor();
     double value = output_.amplitude * factor;
     if (!unit.arguments.empty() &&
-        !read_number(unit.arguments[0], false, least_amplitude * factor, most_amplitude * factor, value))
+        !read_number(unit.arguments[0], unit_, least_amplitude * factor, most_amplitude * factor, value))
         return;
     if (unit.query)
         unit.answer = fmt::format("{:+.6E}", shown_voltage(value, unit_, output_.shape));
@@ -322,17 +311,13 @@ void FunctionGenerator::amplitude(Unit& unit) {
 void FunctionGenerator::offset(Unit& unit) {
     const double factor = load_factor();
     double value = output_.offset * factor;
-    // An offset is always in volts.
-    const VoltageUnit before = std::exchange(unit_, VoltageUnit::vpp);
-    const bool good = unit.arguments.empty() ||
-                      read_number(unit.arguments[0], false, -most_voltage * factor, most_voltage * factor, value);
-    unit_ = before;
-    if (!good)
+    if (!unit.arguments.empty() && !read_number(unit.arguments[0], VoltageUnit::vpp, -most_voltage * factor,
+                                                most_voltage * factor, value)) // always in volts
         return;
     if (unit.query)
         unit.answer = fmt::format("{:+.6E}", value);
     else if (std::abs(value) > most_voltage * factor)
-        raise(-222);
+        note_error(-222);
     else
         set_voltages(output_.amplitude * factor, value);
 }
@@ -343,11 +328,11 @@ void FunctionGenerator::voltage_unit(Unit& unit) {
     else if (is_form_of(unit.arguments[0], "DEFault"))
         unit_ = VoltageUnit::vpp;
     else if (unit.arguments[0] == "DBM" && high_load_)
-        raise(-221); // a power needs a load of 50 ohm
+        note_error(-221); // a power needs a load of 50 ohm
     else if (const std::optional<VoltageUnit> asked = voltage_unit_named(unit.arguments[0]))
         unit_ = *asked;
     else
-        raise(-224);
+        note_error(-224);
 }
 
 void FunctionGenerator::shape(Unit& unit) {
@@ -365,7 +350,7 @@ void FunctionGenerator::shape(Unit& unit) {
         }
     }
     if (!unit.query)
-        raise(-224);
+        note_error(-224);
 }
 
 void FunctionGenerator::modulation(Unit& unit) {
@@ -376,7 +361,7 @@ void FunctionGenerator::modulation(Unit& unit) {
     } else if (unit.arguments[0] == "ON" || unit.arguments[0] == "1") {
         modulations_.assign({name}); // only one at a time
     } else if (unit.arguments[0] != "OFF" && unit.arguments[0] != "0") {
-        raise(-224);
+        note_error(-224);
     } else if (found != modulations_.end()) {
         modulations_.erase(found);
     }
@@ -392,7 +377,7 @@ void FunctionGenerator::load(Unit& unit) {
         if (unit_ == VoltageUnit::dbm)
             unit_ = VoltageUnit::vpp;
     } else {
-        raise(-224);
+        note_error(-224);
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -40,7 +41,7 @@ public:
     /// Executes a line. @return its answer without a terminator, answers to several queries separated by semicolons;
     /// empty: none
     std::string execute(std::string_view line);
-    /// Queues an error that was found before the line was complete, such as 521 for a line that is too long.
+    /// Queues an error, such as 521 for a line that is too long.
     void note_error(int number);
 
     /// The output at a load of 50 ohm; the load that it was told does not change it.
@@ -57,12 +58,10 @@ private:
     struct Command; // an entry of the table of commands
     static std::span<const Command> commands();
     void execute_unit(Unit& unit);
-    void raise(int number);
-    bool read_number(const std::string& text, bool is_frequency, double least, double most, double& value);
+    bool read_number(const std::string& text, std::optional<VoltageUnit> unit, double least, double most,
+                     double& value);
     bool set_voltages(double amplitude, double offset);
     double load_factor() const { return high_load_ ? 2 : 1; }
-    double shown_amplitude() const;
-    void reset();
 
     void remote(Unit& unit);
     void error_query(Unit& unit);
@@ -84,8 +83,5 @@ private:
     int events_ = 0;                       ///< standard event register
     std::vector<int> errors_;
 };
-
-/// Returns the text of an SCPI error number, such as "Undefined header".
-std::string_view scpi_error_text(int number);
 
 } // namespace graze

@@ -1,11 +1,11 @@
 #include "instrument/sample_protocol.hpp"
 
 #include "graze/base/printable.hpp"
+#include "record/text_number.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 
@@ -14,16 +14,6 @@ namespace graze {
 namespace {
 
 constexpr std::size_t most_waiting = 64;
-
-template <class Number>
-bool read_argument(std::string_view text, Number& value) {
-    const auto [next, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && next == text.data() + text.size();
-}
-
-std::string titled(const Channel& channel) {
-    return channel.unit.empty() ? channel.name : fmt::format("{} [{}]", channel.name, channel.unit);
-}
 
 } // namespace
 
@@ -98,13 +88,9 @@ std::string SampleProtocol::answer(std::string_view line) {
     const std::size_t blank = std::min(line.find(' '), line.size());
     const std::string_view word = line.substr(0, blank);
     const std::string_view rest = blank < line.size() ? line.substr(blank + 1) : std::string_view();
-    if (word == "CHANNELS" && rest.empty()) {
-        std::string text = titled(bench_->header().time);
-        for (const Channel& channel : bench_->header().channels)
-            text += ", " + titled(channel);
-        return text + '\n';
-    }
-    if (double rate = 0; word == "RATE" && read_argument(rest, rate)) {
+    if (word == "CHANNELS" && rest.empty())
+        return bench_->header().heading() + '\n';
+    if (double rate = 0; word == "RATE" && read_whole(rest, rate)) {
         try {
             bench_->set_rate(rate);
         } catch (const InputError& error) {
@@ -115,8 +101,8 @@ std::string SampleProtocol::answer(std::string_view line) {
     if (word == "READ") {
         const std::size_t gap = std::min(rest.find(' '), rest.size());
         std::size_t count = 0, block = most_rows;
-        const bool good = read_argument(rest.substr(0, gap), count) && count <= most_rows &&
-                          (gap == rest.size() || (read_argument(rest.substr(gap + 1), block) && block > 0));
+        const bool good = read_whole(rest.substr(0, gap), count) && count <= most_rows &&
+                          (gap == rest.size() || (read_whole(rest.substr(gap + 1), block) && block > 0));
         if (good) {
             reading_ = true;
             wanted_ = count;
@@ -125,7 +111,7 @@ std::string SampleProtocol::answer(std::string_view line) {
             return {};
         }
     }
-    if (std::uint64_t number = 0; (word == "MARK" || word == "RETURN") && read_argument(rest, number)) {
+    if (std::uint64_t number = 0; (word == "MARK" || word == "RETURN") && read_whole(rest, number)) {
         if (word == "MARK")
             bench_->mark(number);
         else if (!bench_->return_to(number))

@@ -12,7 +12,6 @@
 #include <filesystem>
 #include <system_error>
 #include <termios.h>
-#include <unistd.h>
 #include <utility>
 
 namespace graze {
@@ -48,40 +47,25 @@ Terminal::Terminal(std::string name) : name_(std::move(name)) {
         throw InputError(Place{"port", 0, 0}, "the name of the port is empty", "give one");
     clear_name(name_);
     std::array<char, 128> path{};
-    master_ = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
-    if (master_ < 0 || grantpt(master_) != 0 || unlockpt(master_) != 0 ||
-        ptsname_r(master_, path.data(), path.size()) != 0) {
-        close_both();
+    master_.reset(posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK));
+    if (file() < 0 || grantpt(file()) != 0 || unlockpt(file()) != 0 || ptsname_r(file(), path.data(), path.size()) != 0)
         refuse(name_);
-    }
     target_ = path.data();
     // Kept open so that the line does not hang up when a client closes it.
-    slave_ = open(target_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+    slave_.reset(open(target_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC));
     termios raw{};
-    if (slave_ < 0 || tcgetattr(slave_, &raw) != 0) {
-        close_both();
+    if (slave_.get() < 0 || tcgetattr(slave_.get(), &raw) != 0)
         refuse(name_);
-    }
     cfmakeraw(&raw);
-    tcsetattr(slave_, TCSANOW, &raw);
-    if (symlink(target_.c_str(), name_.c_str()) != 0) {
-        close_both();
+    tcsetattr(slave_.get(), TCSANOW, &raw);
+    if (symlink(target_.c_str(), name_.c_str()) != 0)
         refuse(name_);
-    }
-}
-
-void Terminal::close_both() const {
-    if (slave_ >= 0)
-        close(slave_);
-    if (master_ >= 0)
-        close(master_);
 }
 
 Terminal::~Terminal() {
     std::error_code error;
     if (std::filesystem::read_symlink(name_, error).string() == target_) // only if it still leads to this terminal
         std::filesystem::remove(name_, error);
-    close_both();
 }
 
 } // namespace graze

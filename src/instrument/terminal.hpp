@@ -1,8 +1,28 @@
 #pragma once
 
+#include <unistd.h>
+
 #include <string>
 
 namespace graze {
+
+/// Owns a file descriptor.
+class Descriptor {
+public:
+    explicit Descriptor(int file = -1) : file_(file) {}
+    ~Descriptor() { reset(); }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    int get() const { return file_; }
+    void reset(int file = -1) {
+        if (file_ >= 0)
+            close(file_);
+        file_ = file;
+    }
+
+private:
+    int file_;
+};
 
 /// The instrument's end of a pseudo-terminal, which a link names.
 class Terminal {
@@ -14,12 +34,11 @@ public:
     Terminal(const Terminal&) = delete;
     Terminal& operator=(const Terminal&) = delete;
 
-    int file() const { return master_; }
+    int file() const { return master_.get(); }
 
 private:
-    void close_both() const;
     std::string name_, target_;
-    int master_ = -1, slave_ = -1;
+    Descriptor master_, slave_;
 };
 
 } // namespace graze

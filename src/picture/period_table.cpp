@@ -2,7 +2,7 @@
 
 #include "graze/record/extremes.hpp"
 #include "graze/record/harmonic.hpp"
-#include "graze/record/record_periods.hpp"
+#include "graze/record/period.hpp"
 #include "graze/record/section.hpp"
 
 #include <fmt/format.h>

@@ -64,6 +64,25 @@ private:
     int depth_ = 0;
 };
 
+/// Splits "t / s", "CH1 in V" and, in quotes, "Time, s", if the last part is a unit.
+void split_unit_behind(std::string_view& text, std::string& unit) {
+    for (const std::string_view between : {" / ", " in ", ", "}) {
+        const std::size_t at = text.rfind(between);
+        if (at == std::string_view::npos || at == 0 || !is_unit_word(text.substr(at + between.size())))
+            continue;
+        unit = unit_of_word(text.substr(at + between.size()));
+        text = trimmed(text.substr(0, at));
+        return;
+    }
+}
+
+/// Units as instruments write them in a line of units.
+constexpr std::array<std::string_view, 40> symbols{
+    "s",  "ms", "us",  "ns",   "\xc2\xb5s", "\xce\xbcs", "ps", "min", "h",   "V",   "mV",   "uV", "kV", "Vpp",
+    "A",  "mA", "uA",  "nA",   "W",         "mW",        "Hz", "kHz", "MHz", "ohm", "kohm", "m",  "mm", "um",
+    "nm", "cm", "m/s", "mm/s", "m/s^2",     "g",         "N",  "mN",  "rad", "deg", "Pa",   "%",
+};
+
 } // namespace
 
 char separator_of_names(std::string_view line) {
@@ -102,22 +121,6 @@ std::vector<NameField> name_fields(std::string_view line, char separator) {
         fields.pop_back();
     return fields;
 }
-
-namespace {
-
-/// Splits "t / s", "CH1 in V" and, in quotes, "Time, s", if the last part is a unit.
-void split_unit_behind(std::string_view& text, std::string& unit) {
-    for (const std::string_view between : {" / ", " in ", ", "}) {
-        const std::size_t at = text.rfind(between);
-        if (at == std::string_view::npos || at == 0 || !is_unit_word(text.substr(at + between.size())))
-            continue;
-        unit = unit_of_word(text.substr(at + between.size()));
-        text = trimmed(text.substr(0, at));
-        return;
-    }
-}
-
-} // namespace
 
 Channel named_channel(const NameField& field, const Place& line) {
     std::string_view text = without_quotes(trimmed(field.text));
@@ -187,17 +190,6 @@ void require_closed_brackets(std::string_view line, const Place& place) {
     throw InputError(column_of(place, std::min(square, round)), "the bracket of a unit is not closed",
                      "write names with their units, as in 't [s], V [V]'");
 }
-
-namespace {
-
-/// Units as instruments write them in a line of units.
-constexpr std::array<std::string_view, 40> symbols{
-    "s",  "ms", "us",  "ns",   "\xc2\xb5s", "\xce\xbcs", "ps", "min", "h",   "V",   "mV",   "uV", "kV", "Vpp",
-    "A",  "mA", "uA",  "nA",   "W",         "mW",        "Hz", "kHz", "MHz", "ohm", "kohm", "m",  "mm", "um",
-    "nm", "cm", "m/s", "mm/s", "m/s^2",     "g",         "N",  "mN",  "rad", "deg", "Pa",   "%",
-};
-
-} // namespace
 
 std::string unit_of_word(std::string_view word) {
     return unit_symbol(without_brackets(without_quotes(trimmed(word))));

@@ -6,7 +6,6 @@
 #include "graze/record/spectrum.hpp"
 #include "record/even_clock.hpp"
 #include "record/local_polynomial.hpp"
-#include "record/resumed_source.hpp"
 #include "record/sliding_samples.hpp"
 
 #include <fmt/format.h>
@@ -246,7 +245,7 @@ bool WithDerivative::read(Samples& samples) {
                              "record longer");
         state.half = state.settings.half_width > 0 ? state.settings.half_width
                                                    : best_half_width(begun.times, begun.values[channel]);
-        state.window.emplace(std::make_shared<ResumedSource>(state.source, std::move(begun)), state.half);
+        state.window.emplace(state.source, state.half, std::move(begun));
     }
     samples.clear(state.header.channels.size());
     if (!state.window->next())

@@ -48,14 +48,10 @@ Extremes extremes(const Period& period, std::size_t channel) {
     const double first = interpolate(times, values, period.begin), last = interpolate(times, values, period.end);
     Extremes found{first, period.begin, first, period.begin};
     const auto take = [&](const Peak& peak) {
-        if (peak.value < found.least) {
-            found.least = peak.value;
-            found.least_time = peak.time;
-        }
-        if (peak.value > found.greatest) {
-            found.greatest = peak.value;
-            found.greatest_time = peak.time;
-        }
+        if (peak.value < found.least)
+            found = {peak.value, peak.time, found.greatest, found.greatest_time};
+        if (peak.value > found.greatest)
+            found = {found.least, found.least_time, peak.value, peak.time};
     };
     take({last, period.end});
     for (std::size_t i = 0; i < times.size(); ++i) {

@@ -1,7 +1,6 @@
 #include "record/fourier.hpp"
 
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <utility>

@@ -15,15 +15,13 @@ namespace graze {
 
 namespace {
 
-constexpr Eigen::Index unknowns = 3;
-
-double squares_left(std::span<const double> times, std::span<const double> values, double frequency) {
-    const Harmonic fit = fit_harmonic(times, values, frequency);
-    const double freedom = static_cast<double>(fit.samples) - static_cast<double>(unknowns);
-    return fit.noise * fit.noise * freedom;
-}
+constexpr std::size_t unknowns = 3;
 
 } // namespace
+
+double Harmonic::at(double time) const {
+    return offset + sine * std::sin(frequency * time) + cosine * std::cos(frequency * time);
+}
 
 double Harmonic::amplitude() const {
     return std::hypot(sine, cosine);
@@ -54,10 +52,10 @@ double Harmonic::phase_error() const {
 Harmonic fit_harmonic(std::span<const double> times, std::span<const double> values, double frequency) {
     require_size(values.size(), times.size(), "values of a channel");
     require_finite(frequency, "the frequency");
-    if (static_cast<Eigen::Index>(times.size()) <= unknowns || !(frequency > 0))
+    if (times.size() <= unknowns || !(frequency > 0))
         throw InputError("there are too few samples of a harmonic", "give four or more, and a positive frequency");
     const auto rows = static_cast<Eigen::Index>(times.size());
-    Eigen::MatrixXd matrix(rows, unknowns);
+    Eigen::MatrixXd matrix(rows, 3);
     for (Eigen::Index i = 0; i < rows; ++i) {
         const double angle = frequency * times[static_cast<std::size_t>(i)];
         matrix.row(i) << 1, std::sin(angle), std::cos(angle);
@@ -72,20 +70,12 @@ Harmonic fit_harmonic(std::span<const double> times, std::span<const double> val
         throw InputError("the samples cover too short a part of a period to determine its amplitude",
                          "record a period or more");
     const Eigen::Matrix3d inverse = triangle.triangularView<Eigen::Upper>().solve(Eigen::Matrix3d::Identity());
-    Harmonic fit;
-    fit.frequency = frequency;
-    fit.offset = solution[0];
-    fit.sine = solution[1];
-    fit.cosine = solution[2];
-    fit.samples = times.size();
-    const double squares = (right - matrix * solution).squaredNorm();
-    fit.noise = std::sqrt(squares / static_cast<double>(rows - unknowns));
-    const Eigen::Matrix3d covariance = fit.noise * fit.noise * inverse * inverse.transpose();
-    fit.offset_error = std::sqrt(covariance(0, 0));
-    fit.sine_error = std::sqrt(covariance(1, 1));
-    fit.cosine_error = std::sqrt(covariance(2, 2));
-    fit.covariance = covariance(1, 2);
-    return fit;
+    const double squares = (right - matrix * solution).squaredNorm(),
+                 noise = std::sqrt(squares / static_cast<double>(times.size() - unknowns));
+    const Eigen::Matrix3d covariance = noise * noise * inverse * inverse.transpose();
+    const Eigen::Vector3d errors = covariance.diagonal().cwiseSqrt();
+    return {frequency, solution[0], solution[1],      solution[2], errors[0],
+            errors[1], errors[2],   covariance(1, 2), noise,       times.size()};
 }
 
 double fit_frequency(std::span<const double> times, std::span<const std::span<const double>> channels, double guess) {
@@ -102,8 +92,8 @@ double fit_frequency(std::span<const double> times, std::span<const std::span<co
         double numerator = 0, denominator = 0;
         for (const std::span<const double> values : channels) {
             const Harmonic fit = fit_harmonic(centred, values, frequency);
-            const double weight = 1 / std::max(squares_left(centred, values, frequency),
-                                               1e-28 * (fit.sine * fit.sine + fit.cosine * fit.cosine));
+            const double squares = fit.noise * fit.noise * static_cast<double>(fit.samples - unknowns);
+            const double weight = 1 / std::max(squares, 1e-28 * (fit.sine * fit.sine + fit.cosine * fit.cosine));
             std::vector<double> slope(centred.size());
             for (std::size_t i = 0; i < centred.size(); ++i)
                 slope[i] = centred[i] * (fit.sine * std::cos(frequency * centred[i]) -

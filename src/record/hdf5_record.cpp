@@ -1,4 +1,4 @@
-#include "record/hdf5_record.hpp"
+#include "record/record_formats.hpp"
 
 #include "graze/base/physical_unit.hpp"
 #include "graze/base/printable.hpp"
@@ -76,18 +76,24 @@ public:
     }
 
 private:
+    [[noreturn]] void refuse(const std::string& problem, const std::string& remedy = advice) const {
+        throw InputError(Place{path_, 0, 0}, problem, remedy);
+    }
     [[noreturn]] void refuse(const Column& column, hsize_t row, const std::string& problem,
                              const std::string& remedy) const {
-        throw InputError(Place{path_, 0, 0},
-                         fmt::format("dataset '{}', row {}: {}", column.channel.name, row + 1, problem), remedy);
+        refuse(fmt::format("dataset '{}', row {}: {}", column.channel.name, row + 1, problem), remedy);
+    }
+    Hdf5Handle handle(hid_t id, herr_t (*close)(hid_t), const std::string& problem,
+                      const std::string& remedy = advice) const {
+        return {id, close, path_, problem, remedy};
     }
 
     void read_column(const Column& column, std::vector<double>& values, hsize_t count) const {
         values.resize(count);
         const auto read_problem = "it cannot be read";
         const char* const damaged = "the file is damaged, or has been cut off; make it again";
-        const Hdf5Handle source(H5Dget_space(column.set.id()), H5Sclose, path_, read_problem, damaged);
-        const Hdf5Handle target(H5Screate_simple(1, &count, nullptr), H5Sclose, path_, read_problem, damaged);
+        const Hdf5Handle source = handle(H5Dget_space(column.set.id()), H5Sclose, read_problem, damaged);
+        const Hdf5Handle target = handle(H5Screate_simple(1, &count, nullptr), H5Sclose, read_problem, damaged);
         if (H5Sselect_hyperslab(source.id(), H5S_SELECT_SET, &next_, nullptr, &count, nullptr) < 0 ||
             H5Dread(column.set.id(), H5T_NATIVE_DOUBLE, target.id(), source.id(), H5P_DEFAULT, values.data()) < 0)
             refuse(column, next_, read_problem, damaged);
@@ -100,7 +106,7 @@ private:
         file_ = {};
         const char* const problem = "this HDF5 file cannot be read";
         const char* const damaged = "it is damaged, or has been cut off; make it again";
-        const Hdf5Handle how(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path_, problem, damaged);
+        const Hdf5Handle how = handle(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, problem, damaged);
         H5Pset_cache(how.id(), 0, H5D_CHUNK_CACHE_NSLOTS_DEFAULT, cache_, H5D_CHUNK_CACHE_W0_DEFAULT);
         file_ = {H5Fopen(path_.c_str(), H5F_ACC_RDONLY, how.id()), H5Fclose, path_, problem, damaged};
     }
@@ -113,12 +119,11 @@ private:
                              "name the group whose datasets are the channels");
             H5G_info_t info{};
             if (H5Gget_info(group.id(), &info) < 0)
-                throw InputError(Place{path_, 0, 0}, "its datasets cannot be listed", advice);
+                refuse("its datasets cannot be listed");
             if (info.nlinks > most_datasets)
-                throw InputError(Place{path_, 0, 0},
-                                 fmt::format("group '{}' has {} members, which are more than {}", printable_line(name),
-                                             info.nlinks, most_datasets),
-                                 "give groups of fewer channels, or text");
+                refuse(fmt::format("group '{}' has {} members, which are more than {}", printable_line(name),
+                                   info.nlinks, most_datasets),
+                       "give groups of fewer channels, or text");
             links_ = info.nlinks;
             if (links_ * cache_ <= largest_cache)
                 return group;
@@ -141,18 +146,14 @@ private:
                 }
             }
         if (!has_time || columns_.empty())
-            throw InputError(Place{path_, 0, 0}, has_time ? "there are no channels" : "there is no dataset t or time",
-                             advice);
+            refuse(has_time ? "there are no channels" : "there is no dataset t or time");
         header_.time = time_.channel;
         require_unit_of_time(header_, path_);
         rows_ = time_.rows;
         for (const Column& column : columns_) {
             header_.channels.push_back(column.channel);
             if (column.rows != rows_)
-                throw InputError(
-                    Place{path_, 0, 0},
-                    fmt::format("dataset '{}' has {} rows instead of {}", column.channel.name, column.rows, rows_),
-                    advice);
+                refuse(fmt::format("dataset '{}' has {} rows instead of {}", column.channel.name, column.rows, rows_));
         }
     }
 
@@ -164,24 +165,24 @@ private:
         H5L_info_t link{};
         if (length <= 0 || static_cast<std::size_t>(length) > longest_channel_name || !is_plain_line(name) ||
             H5Lget_info(group, name, &link, H5P_DEFAULT) < 0)
-            throw InputError(Place{path_, 0, 0}, "there is a name that is not valid for a channel", advice);
+            refuse("there is a name that is not valid for a channel");
         if (link.type != H5L_TYPE_HARD)
             return std::nullopt;
         Column column;
         column.channel.name = name;
         const std::string problem = fmt::format("dataset '{}' cannot be read", name);
-        column.set = {H5Oopen(group, name, H5P_DEFAULT), H5Oclose, path_, problem, advice};
+        column.set = handle(H5Oopen(group, name, H5P_DEFAULT), H5Oclose, problem);
         if (H5Iget_type(column.set.id()) != H5I_DATASET)
             return std::nullopt;
-        const Hdf5Handle type(H5Dget_type(column.set.id()), H5Tclose, path_, problem, advice);
+        const Hdf5Handle type = handle(H5Dget_type(column.set.id()), H5Tclose, problem);
         const H5T_class_t kind = H5Tget_class(type.id());
         if (kind != H5T_FLOAT && kind != H5T_INTEGER)
             return std::nullopt;
         if (H5Tget_size(type.id()) > longest_number)
-            throw InputError(Place{path_, 0, 0}, problem + ": its numbers are too long", "write 64-bit floats");
-        const Hdf5Handle space(H5Dget_space(column.set.id()), H5Sclose, path_, problem, advice);
+            refuse(problem + ": its numbers are too long", "write 64-bit floats");
+        const Hdf5Handle space = handle(H5Dget_space(column.set.id()), H5Sclose, problem);
         if (H5Sget_simple_extent_ndims(space.id()) != 1)
-            throw InputError(Place{path_, 0, 0}, fmt::format("dataset '{}' is not a list of numbers", name), advice);
+            refuse(fmt::format("dataset '{}' is not a list of numbers", name));
         H5Sget_simple_extent_dims(space.id(), &column.rows, nullptr);
         column.chunk = plain_chunk(column.set.id(), H5Tget_size(type.id()), problem);
         column.channel.unit = unit_of(column.set.id());
@@ -190,17 +191,15 @@ private:
 
     /// Refuses data in other files, and chunks that are too large. @return bytes of a chunk; 0: not chunked
     hsize_t plain_chunk(hid_t set, std::size_t number, const std::string& problem) const {
-        const Hdf5Handle how(H5Dget_create_plist(set), H5Pclose, path_, problem, advice);
+        const Hdf5Handle how = handle(H5Dget_create_plist(set), H5Pclose, problem);
         const H5D_layout_t layout = H5Pget_layout(how.id());
         hsize_t chunk = 0;
         if (layout == H5D_VIRTUAL || layout == H5D_LAYOUT_ERROR || H5Pget_external_count(how.id()) != 0)
-            throw InputError(Place{path_, 0, 0}, problem + ": it is kept in another file",
-                             "copy what it holds into this one");
+            refuse(problem + ": it is kept in another file", "copy what it holds into this one");
         if (layout != H5D_CHUNKED)
             return 0;
         if (H5Pget_chunk(how.id(), 1, &chunk) != 1 || chunk > largest_chunk / number)
-            throw InputError(Place{path_, 0, 0}, problem + ": its chunks are too large",
-                             "write it in chunks of less than 64 MiB");
+            refuse(problem + ": its chunks are too large", "write it in chunks of less than 64 MiB");
         return chunk * number;
     }
 
@@ -215,10 +214,10 @@ private:
             if (column.chunk <= cache_)
                 return;
             const std::string problem = fmt::format("dataset '{}' cannot be read", column.channel.name);
-            const Hdf5Handle how(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose, path_, problem, advice);
+            const Hdf5Handle how = handle(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose, problem);
             H5Pset_chunk_cache(how.id(), H5D_CHUNK_CACHE_NSLOTS_DEFAULT, column.chunk, H5D_CHUNK_CACHE_W0_DEFAULT);
             column.set = {}; // the cache can only change by reopening
-            column.set = {H5Dopen2(group, column.channel.name.c_str(), how.id()), H5Dclose, path_, problem, advice};
+            column.set = handle(H5Dopen2(group, column.channel.name.c_str(), how.id()), H5Dclose, problem);
         };
         widen(time_);
         std::for_each(columns_.begin(), columns_.end(), widen);
@@ -229,9 +228,9 @@ private:
         if (H5Aexists(set, "units") <= 0)
             return "";
         const std::string problem = "a unit cannot be read", remedy = "give units as texts";
-        const Hdf5Handle attribute(H5Aopen(set, "units", H5P_DEFAULT), H5Aclose, path_, problem, remedy);
-        const Hdf5Handle type(H5Aget_type(attribute.id()), H5Tclose, path_, problem, remedy);
-        const Hdf5Handle space(H5Aget_space(attribute.id()), H5Sclose, path_, problem, remedy);
+        const Hdf5Handle attribute = handle(H5Aopen(set, "units", H5P_DEFAULT), H5Aclose, problem, remedy);
+        const Hdf5Handle type = handle(H5Aget_type(attribute.id()), H5Tclose, problem, remedy);
+        const Hdf5Handle space = handle(H5Aget_space(attribute.id()), H5Sclose, problem, remedy);
         if (H5Tget_class(type.id()) != H5T_STRING || H5Sget_simple_extent_npoints(space.id()) != 1)
             return "";
         std::string unit;

@@ -18,7 +18,6 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t least_window = 5, most_window = 100'000;
 constexpr std::size_t nearest_samples = 4; ///< impacts closer than this are one
 constexpr std::size_t parabola = 2;
 
@@ -139,20 +138,14 @@ RecordedImpact ImpactFinder::State::impact_at(std::size_t i, std::size_t from, s
     const std::size_t before = std::min(settings.window, i + 1 - std::min(i + 1, from + settings.transition)),
                       after = std::min(settings.window, to - std::min(to, i + 1 + settings.transition));
     const auto rows_before = [&](const std::vector<double>& column) {
-        std::vector<double> result;
-        for (std::size_t k = 0; k < std::max<std::size_t>(before, 1); ++k)
-            result.push_back(column[i - settings.transition - k]);
-        return result;
+        const auto nearest = column.rend() - static_cast<std::ptrdiff_t>(i - settings.transition + 1);
+        return std::vector<double>(nearest, nearest + static_cast<std::ptrdiff_t>(std::max<std::size_t>(before, 1)));
     };
     const auto rows_after = [&](const std::vector<double>& column) {
-        std::vector<double> result;
-        for (std::size_t k = 0; k < std::max<std::size_t>(after, 1); ++k)
-            result.push_back(column[i + 1 + settings.transition + k]);
-        return result;
+        const auto nearest = column.begin() + static_cast<std::ptrdiff_t>(i + 1 + settings.transition);
+        return std::vector<double>(nearest, nearest + static_cast<std::ptrdiff_t>(std::max<std::size_t>(after, 1)));
     };
-    RecordedImpact impact;
-    double offset = 0.5; // time of the impact after row i, in samples
-    impact.time_error = spacing / std::sqrt(12.0);
+    double offset = 0.5, time_error = spacing / std::sqrt(12.0); // offset: time of the impact after row i, in samples
     if (settings.displacement) {
         const std::vector<double>& places = rows.values[*settings.displacement];
         const std::vector<double> first = rows_before(places), second = rows_after(places);
@@ -166,7 +159,7 @@ RecordedImpact ImpactFinder::State::impact_at(std::size_t i, std::size_t from, s
                 break;
             const double limit = static_cast<double>(settings.transition) + 1;
             const double moved = std::clamp(offset - difference / slope, -limit, limit + 1);
-            impact.time_error = spacing * std::hypot(a.error, b.error) / std::abs(slope);
+            time_error = spacing * std::hypot(a.error, b.error) / std::abs(slope);
             const bool stands = std::abs(moved - offset) < 1e-12;
             offset = moved;
             if (stands)
@@ -175,15 +168,11 @@ RecordedImpact ImpactFinder::State::impact_at(std::size_t i, std::size_t from, s
     }
     const Continued a = continued(rows_before(values), settings.transition, offset, noise),
                     b = continued(rows_after(values), settings.transition, 1 - offset, noise);
-    impact.time = rows.times[i] + offset * spacing;
-    impact.before = a.value;
-    impact.after = b.value;
-    // The error of the time adds to those of the velocities.
-    const double late = impact.time_error / spacing;
-    impact.before_error = std::hypot(a.error, a.slope * late);
-    impact.after_error = std::hypot(b.error, b.slope * late);
-    impact.covariance = -(a.slope * late) * (b.slope * late); // slopes are in the direction away from the impact
-    return impact;
+    // The error of the time adds to those of the velocities. Slopes are in the direction away from the impact.
+    const double late = time_error / spacing, off_before = a.slope * late, off_after = b.slope * late;
+    return {rows.times[i] + offset * spacing, time_error, a.value,
+            std::hypot(a.error, off_before),  b.value,    std::hypot(b.error, off_after),
+            -off_before * off_after};
 }
 
 ImpactFinder::ImpactFinder(std::shared_ptr<SampleSource> source, const ImpactSettings& settings) {
@@ -191,7 +180,8 @@ ImpactFinder::ImpactFinder(std::shared_ptr<SampleSource> source, const ImpactSet
     require_index(settings.velocity, channels, "channel");
     if (settings.displacement)
         require_index(*settings.displacement, channels, "channel");
-    if (settings.window < least_window || settings.window > most_window || settings.transition > most_window)
+    if (settings.window < settings.least_window || settings.window > settings.most_window ||
+        settings.transition > settings.most_window)
         throw InputError(fmt::format("{} samples do not determine the velocities at an impact", settings.window),
                          "take 5 or more, and up to 100000");
     if (!(settings.significance > 0) || !std::isfinite(settings.significance) || !(settings.least_jump >= 0) ||

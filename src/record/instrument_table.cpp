@@ -74,10 +74,8 @@ double common_number(const TextLines& lines, const LabviewHeading& heading, cons
     std::optional<double> common;
     for (std::size_t c = 0; found != heading.end() && c < channels && c < found->second.size(); ++c) {
         const std::optional<double> one = number_of(found->second[c], decimal);
-        if (!one || (common && *common != *one)) {
-            common.reset();
-            break;
-        }
+        if (!one || (common && *common != *one))
+            fail_common(lines, key);
         common = one;
     }
     if (!common)
@@ -99,85 +97,7 @@ std::string unit_of_times(const TextLines& lines, const LabviewHeading& heading,
     return unit;
 }
 
-} // namespace
-
-bool is_labview(std::string_view line) {
-    return trimmed(line, " \t,").starts_with("LabVIEW Measurement");
-}
-
-TextTable labview_table(TextLines& lines) {
-    const LabviewHeading file = labview_heading(lines, 0);
-    TextTable table;
-    table.separator = first_of(file, "Separator") == "Comma" ? ',' : '\t';
-    table.decimal = first_of(file, "Decimal_Separator") == "," ? ',' : '.';
-    table.has_comment = table.starts_again = true;
-    const LabviewHeading segment = labview_heading(lines, table.separator);
-    std::string_view line;
-    if (!lines.next(line))
-        throw InputError(Place{lines.path(), 0, 0}, "the record is empty", "give a table of channels against time");
-    const Place place{lines.path(), lines.number(), 1};
-    const std::string kind = first_of(file, "X_Columns");
-    if (kind == "Multi")
-        throw InputError(place, "each channel has times of its own (X_Columns Multi)",
-                         "write the file with one column of times (X_Columns One)");
-    std::vector<NameField> names = name_fields(line, table.separator);
-    if (names.size() > 1 && trimmed(names.back().text) == "Comment")
-        names.pop_back();
-    table.header = header_of(names, place);
-    table.header.time.unit = unit_of_times(lines, segment, table.header.channels.size());
-    if (const auto units = segment.find("Y_Unit_Label"); units != segment.end())
-        for (std::size_t c = 0; c < std::min(units->second.size(), table.header.channels.size()); ++c)
-            table.header.channels[c].unit = unit_of_word(units->second[c]);
-    if (kind == "No") {
-        const std::size_t channels = table.header.channels.size();
-        table.passed_over = 1;
-        table.time = {common_number(lines, segment, "X0", channels, table.decimal),
-                      common_number(lines, segment, "Delta_X", channels, table.decimal), false};
-    }
-    return table;
-}
-
-namespace {
-
 constexpr std::size_t tektronix_columns = 3; // columns before the time
-
-} // namespace
-
-bool is_tektronix(std::string_view line) {
-    const Fields fields = row_fields(line, ',');
-    return field_at(fields, 0) == "Record Length" && number_of(field_at(fields, tektronix_columns), '.') &&
-           number_of(field_at(fields, tektronix_columns + 1), '.');
-}
-
-TextTable tektronix_table(TextLines& lines, const KeptLine& first) {
-    TextTable table;
-    table.decimal = '.';
-    table.passed_over = tektronix_columns;
-    table.header = {{"t", "s"}, {{"CH1", ""}}};
-    table.first.push_back(first);
-    constexpr std::size_t most = 100;
-    std::string_view line;
-    while (table.first.size() < most && lines.next(line)) {
-        const Fields fields = row_fields(line, ',');
-        const std::string_view key = field_at(fields, 0), value = field_at(fields, 1);
-        if (trimmed(line, " ,").empty())
-            continue;
-        table.first.push_back({std::string(line), lines.number(), lines.is_ended()});
-        if (key == "Source" && !value.empty() && is_plain_line(value))
-            table.header.channels.front().name = value;
-        else if (key == "Vertical Units")
-            table.header.channels.front().unit = unit_of_word(value);
-        else if (key == "Horizontal Units")
-            table.header.time.unit = unit_of_time_word(value);
-    }
-    return table;
-}
-
-bool has_time_in_names(std::string_view names) {
-    return names.find("t0") != std::string_view::npos && names.find("tInc") != std::string_view::npos;
-}
-
-namespace {
 
 /// Parses a time such as "-5.0e-04s" or "3ms". @return seconds, which are assumed without a unit; nothing if there is
 /// no number
@@ -249,6 +169,76 @@ std::optional<TextTable> rigol_named_time(const KeptLine& names, const std::stri
 }
 
 } // namespace
+
+bool is_labview(std::string_view line) {
+    return trimmed(line, " \t,").starts_with("LabVIEW Measurement");
+}
+
+TextTable labview_table(TextLines& lines) {
+    const LabviewHeading file = labview_heading(lines, 0);
+    TextTable table;
+    table.separator = first_of(file, "Separator") == "Comma" ? ',' : '\t';
+    table.decimal = first_of(file, "Decimal_Separator") == "," ? ',' : '.';
+    table.has_comment = table.starts_again = true;
+    const LabviewHeading segment = labview_heading(lines, table.separator);
+    std::string_view line;
+    if (!lines.next(line))
+        throw InputError(Place{lines.path(), 0, 0}, "the record is empty", "give a table of channels against time");
+    const Place place{lines.path(), lines.number(), 1};
+    const std::string kind = first_of(file, "X_Columns");
+    if (kind == "Multi")
+        throw InputError(place, "each channel has times of its own (X_Columns Multi)",
+                         "write the file with one column of times (X_Columns One)");
+    std::vector<NameField> names = name_fields(line, table.separator);
+    if (names.size() > 1 && trimmed(names.back().text) == "Comment")
+        names.pop_back();
+    table.header = header_of(names, place);
+    table.header.time.unit = unit_of_times(lines, segment, table.header.channels.size());
+    if (const auto units = segment.find("Y_Unit_Label"); units != segment.end())
+        for (std::size_t c = 0; c < std::min(units->second.size(), table.header.channels.size()); ++c)
+            table.header.channels[c].unit = unit_of_word(units->second[c]);
+    if (kind == "No") {
+        const std::size_t channels = table.header.channels.size();
+        table.passed_over = 1;
+        table.time = {common_number(lines, segment, "X0", channels, table.decimal),
+                      common_number(lines, segment, "Delta_X", channels, table.decimal), false};
+    }
+    return table;
+}
+
+bool is_tektronix(std::string_view line) {
+    const Fields fields = row_fields(line, ',');
+    return field_at(fields, 0) == "Record Length" && number_of(field_at(fields, tektronix_columns), '.') &&
+           number_of(field_at(fields, tektronix_columns + 1), '.');
+}
+
+TextTable tektronix_table(TextLines& lines, const KeptLine& first) {
+    TextTable table;
+    table.decimal = '.';
+    table.passed_over = tektronix_columns;
+    table.header = {{"t", "s"}, {{"CH1", ""}}};
+    table.first.push_back(first);
+    constexpr std::size_t most = 100;
+    std::string_view line;
+    while (table.first.size() < most && lines.next(line)) {
+        const Fields fields = row_fields(line, ',');
+        const std::string_view key = field_at(fields, 0), value = field_at(fields, 1);
+        if (trimmed(line, " ,").empty())
+            continue;
+        table.first.push_back({std::string(line), lines.number(), lines.is_ended()});
+        if (key == "Source" && !value.empty() && is_plain_line(value))
+            table.header.channels.front().name = value;
+        else if (key == "Vertical Units")
+            table.header.channels.front().unit = unit_of_word(value);
+        else if (key == "Horizontal Units")
+            table.header.time.unit = unit_of_time_word(value);
+    }
+    return table;
+}
+
+bool has_time_in_names(std::string_view names) {
+    return names.find("t0") != std::string_view::npos && names.find("tInc") != std::string_view::npos;
+}
 
 std::optional<TextTable> rigol_table(const std::vector<KeptLine>& heading, const std::string& path) {
     if (heading.empty())

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace graze {
 
@@ -18,17 +19,14 @@ double interpolate(std::span<const double> times, std::span<const double> values
     const auto i = static_cast<std::size_t>(above - times.begin()) - 1;
     const auto slope = [&](std::size_t a, std::size_t b) { return (values[b] - values[a]) / (times[b] - times[a]); };
     const double straight = values[i] + slope(i, i + 1) * (time - times[i]);
-    double bend = 0;
-    bool known = false;
-    if (i > 0) {
-        bend = (slope(i, i + 1) - slope(i - 1, i)) / (times[i + 1] - times[i - 1]);
-        known = true;
-    }
-    if (i + 2 < times.size()) {
-        const double other = (slope(i + 1, i + 2) - slope(i, i + 1)) / (times[i + 2] - times[i]);
-        if (!known || std::abs(other) < std::abs(bend))
-            bend = other;
-    }
+    /// Second difference at a sample; none at the ends.
+    const auto bend_at = [&](std::size_t k) -> std::optional<double> {
+        if (k == 0 || k + 1 == times.size())
+            return std::nullopt;
+        return (slope(k, k + 1) - slope(k - 1, k)) / (times[k + 1] - times[k - 1]);
+    };
+    const std::optional<double> here = bend_at(i), next = bend_at(i + 1);
+    const double bend = here && !(next && std::abs(*next) < std::abs(*here)) ? *here : next.value_or(0);
     return straight + bend * (time - times[i]) * (time - times[i + 1]);
 }
 

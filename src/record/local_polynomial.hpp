@@ -6,6 +6,14 @@
 
 namespace graze {
 
+/// Value of a polynomial. @param powers coefficients of powers, from the lowest
+inline double polynomial_at(const std::vector<double>& powers, double x) {
+    double sum = 0;
+    for (std::size_t k = powers.size(); k-- > 0;)
+        sum = sum * x + powers[k];
+    return sum;
+}
+
 /// Least-squares fits of polynomials to samples at fixed places, in an orthonormal basis: with white noise the
 /// coefficients are independent, each with the standard deviation of a sample.
 class LocalPolynomial {
@@ -14,7 +22,6 @@ public:
     LocalPolynomial(std::span<const double> places, std::size_t degree);
 
     std::size_t degree() const { return at_zero_.size() - 1; }
-    std::size_t places() const { return places_; }
     /// Returns the coefficient of basis polynomial k. @param samples one at each place
     double coefficient(std::size_t k, const double* samples) const {
         const double* basis = basis_.data() + k * places_;

@@ -4,7 +4,6 @@
 #include "graze/base/require.hpp"
 #include "graze/record/spectrum.hpp"
 #include "record/even_clock.hpp"
-#include "record/resumed_source.hpp"
 #include "record/sliding_samples.hpp"
 
 #include <fmt/format.h>
@@ -118,7 +117,7 @@ bool LowPass::read(Samples& samples) {
                                          highest, frequency / every),
                              "choose lower frequencies, or keep more samples");
         state.factors = filter_of(pass / frequency, stop / frequency, state.settings.attenuation);
-        state.window.emplace(std::make_shared<ResumedSource>(state.source, std::move(begun)), state.factors.size() - 1);
+        state.window.emplace(state.source, state.factors.size() - 1, std::move(begun));
         state.next = state.factors.size() - 1;
     }
     const std::size_t half = state.factors.size() - 1;

@@ -2,6 +2,7 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
+#include "graze/record/harmonic.hpp"
 #include "record/local_polynomial.hpp"
 
 #include <fmt/format.h>
@@ -66,12 +67,7 @@ double PeriodSplitter::locate(std::size_t below, std::size_t above) const {
     constexpr std::size_t cubic = 3;
     const LocalPolynomial polynomial(places, std::min(cubic, places.size() - 1));
     const std::vector<double> powers = polynomial.powers(heights.data());
-    const auto height = [&](double x) {
-        double sum = 0;
-        for (std::size_t k = powers.size(); k-- > 0;)
-            sum = sum * x + powers[k];
-        return sum;
-    };
+    const auto height = [&](double x) { return polynomial_at(powers, x); };
     // The samples change their sign between the two rows. If the polynomial does not, use a straight line.
     double low = (buffer_.times[below] - middle) / scale, high = (buffer_.times[above] - middle) / scale;
     if (!(height(low) < 0 && height(high) > 0)) {
@@ -162,6 +158,23 @@ PeriodFit fit_period(std::span<const double> crossings) {
     fit.period_error = fit.jitter / std::sqrt(spread);
     fit.begin_error = fit.jitter * std::sqrt(1 / count + middle * middle / spread);
     return fit;
+}
+
+RecordPeriods each_period(SampleSource& source, const PeriodSettings& settings,
+                          const std::function<void(const Period&)>& take, const std::string& asked_as) {
+    PeriodSplitter splitter(borrowed(source), settings);
+    RecordPeriods found;
+    double sum = 0;
+    for (Period period; splitter.next(period); ++found.count) {
+        sum += amplitude(period, settings.reference);
+        take(period);
+    }
+    if (found.count == 0)
+        throw InputError(fmt::format("'{}' does not rise through {} twice",
+                                     source.header().channels[settings.reference].name, settings.level),
+                         fmt::format("choose another {0}reference or {0}level, or record more periods", asked_as));
+    found.amplitude = sum / static_cast<double>(found.count);
+    return found;
 }
 
 } // namespace graze

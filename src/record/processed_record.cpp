@@ -36,26 +36,18 @@ private:
 
 ProcessedRecord::ProcessedRecord(std::shared_ptr<SampleSource> source, const RecordProcessing& processing)
     : source_(required(std::move(source), "a source")) {
-    CalibratedSettings calibrated;
+    CalibratedSettings calibrated{{}, processing.begin, processing.end};
     for (const RecordProcessing::Scale& scale : processing.scales)
         calibrated.calibrations.push_back(
             {header().channel(scale.channel, processing.asked_as + "scale"), scale.factor, scale.offset, scale.unit});
-    calibrated.begin = processing.begin;
-    calibrated.end = processing.end;
     if (!calibrated.calibrations.empty() || !std::isinf(processing.begin) || !std::isinf(processing.end))
         source_ = std::make_shared<Calibrated>(source_, calibrated);
-    if (processing.pass > 0 || processing.every > 1) {
-        LowPassSettings filter;
-        filter.pass = processing.pass;
-        filter.stop = processing.stop;
-        filter.every = processing.every;
-        source_ = std::make_shared<LowPass>(source_, filter);
-    }
+    if (processing.pass > 0 || processing.every > 1)
+        source_ = std::make_shared<LowPass>(
+            source_, LowPassSettings{.pass = processing.pass, .stop = processing.stop, .every = processing.every});
     if (!processing.derivative.empty()) {
-        DerivativeSettings derivative;
-        derivative.channel = header().channel(processing.derivative, processing.asked_as + "derivative");
-        derivative.half_width = processing.half_width;
-        source_ = std::make_shared<WithDerivative>(source_, derivative);
+        const std::size_t channel = header().channel(processing.derivative, processing.asked_as + "derivative");
+        source_ = std::make_shared<WithDerivative>(source_, DerivativeSettings{channel, processing.half_width, ""});
     }
     source_ = std::make_shared<RequiredRows>(source_, !processing.asked_as.empty());
 }

@@ -1,8 +1,6 @@
 #include "graze/record/record_file.hpp"
 
-#include "graze/base/input_error.hpp"
-#include "record/hdf5_record.hpp"
-#include "record/text_record.hpp"
+#include "record/record_formats.hpp"
 
 namespace graze {
 
@@ -10,7 +8,7 @@ std::unique_ptr<SampleSource> open_record(const std::string& path, const RecordL
     if (!is_hdf5(path)) {
         if (layout.group != RecordLayout().group)
             throw InputError(Place{path, 0, 0}, "a text file has no groups", "name a group only for HDF5 files");
-        return std::make_unique<TextRecord>(path, layout);
+        return open_text_record(path, layout);
     }
     if (!layout.columns.empty() || layout.skip > 0 || layout.names_line > 0 || layout.units_line > 0)
         throw InputError(Place{path, 0, 0}, "an HDF5 file names its columns itself",

@@ -13,7 +13,6 @@
 #include <set>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 namespace graze {
 
@@ -35,16 +34,12 @@ constexpr const char* full = "look at the permissions of the folder and the room
     throw FileError(path, "the record cannot be written", full);
 }
 
-std::string titled(const Channel& channel) {
-    return channel.unit.empty() ? channel.name : fmt::format("{} [{}]", channel.name, channel.unit);
-}
-
 /// Refuses a name that would be read back as another one, or as two.
 void require_column(const Channel& channel) {
     const bool splits = channel.name.find_first_of(",;\t\n\r[]") != std::string::npos || channel.name.empty() ||
                         channel.name.find_first_of("#%") == 0 || trimmed(channel.name) != channel.name;
     if (splits || channel.unit.find_first_of("[]\n\r") != std::string::npos)
-        throw InputError(fmt::format("channel '{}' cannot be a column of text", titled(channel)),
+        throw InputError(fmt::format("channel '{}' cannot be a column of text", channel.titled()),
                          "give it a name without commas, semicolons and brackets, or write HDF5 (.h5)");
 }
 
@@ -67,10 +62,7 @@ public:
         file_.reset(std::fopen(path.c_str(), "wb"));
         if (!file_)
             refuse(path);
-        text_ = titled(header.time);
-        for (const Channel& channel : header.channels)
-            text_ += ", " + titled(channel);
-        text_ += '\n';
+        text_ = header.heading() + '\n';
     }
     void write(const Samples& samples) override {
         for (std::size_t row = 0; row < samples.rows(); ++row) {

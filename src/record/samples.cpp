@@ -12,6 +12,13 @@
 
 namespace graze {
 
+std::string RecordHeader::heading() const {
+    std::string text = time.titled();
+    for (const Channel& channel : channels)
+        text += ", " + channel.titled();
+    return text;
+}
+
 std::vector<std::size_t> RecordHeader::chosen_channels(const std::vector<std::string>& names,
                                                        std::string_view asked) const {
     std::vector<std::size_t> chosen;

@@ -13,12 +13,8 @@ namespace graze {
 SectionPoint section(const Period& period, double phase) {
     if (!(phase >= 0 && phase <= 1))
         throw InputError(fmt::format("the phase {} is not a part of a period", phase), "give a number from 0 to 1");
-    SectionPoint point;
-    point.period = period.number;
-    point.phase = phase;
-    point.time = period.begin + phase * period.duration();
-    point.values = interpolate(period.samples, point.time);
-    return point;
+    const double time = period.begin + phase * period.duration();
+    return {period.number, phase, time, interpolate(period.samples, time), false};
 }
 
 SectionPoint image_of(const SectionPoint& point, const RecordSymmetry& symmetry) {

@@ -16,7 +16,6 @@
 #include <cerrno>
 #include <cmath>
 #include <csignal>
-#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -208,11 +207,7 @@ SeparateSource::SeparateSource(std::string path, const Make& make, const Reading
             tell_nonsense();
         header_.time.name = next_text();
         header_.time.unit = next_text();
-        std::uint64_t channels = 0;
-        fill(&channels, sizeof channels);
-        if (channels > most_channels)
-            tell_nonsense();
-        for (; channels > 0; --channels) {
+        for (std::uint64_t channels = next_number(most_channels); channels > 0; --channels) {
             std::string name = next_text(), unit = next_text();
             header_.channels.push_back({std::move(name), std::move(unit)});
         }
@@ -236,10 +231,9 @@ bool SeparateSource::read(Samples& samples) {
         return end(true), false;
     if (kind == kind_refusal)
         pass_on_refusal();
-    std::uint64_t rows = 0;
-    fill(&rows, sizeof rows);
-    if (kind != kind_part || rows > most_rows)
+    if (kind != kind_part)
         tell_nonsense();
+    const std::uint64_t rows = next_number(most_rows);
     const auto take = [&](std::vector<double>& column) {
         column.resize(rows);
         fill(column.data(), rows * sizeof(double));
@@ -275,24 +269,25 @@ char SeparateSource::next_kind() {
     return kind;
 }
 
-std::string SeparateSource::next_text() {
-    std::uint64_t size = 0;
-    fill(&size, sizeof size);
-    if (size > longest_text)
+std::uint64_t SeparateSource::next_number(std::uint64_t most) {
+    std::uint64_t number = 0;
+    fill(&number, sizeof number);
+    if (number > most)
         tell_nonsense();
-    std::string text(size, '\0');
-    fill(text.data(), size);
+    return number;
+}
+
+std::string SeparateSource::next_text() {
+    std::string text(next_number(longest_text), '\0');
+    fill(text.data(), text.size());
     return text;
 }
 
 void SeparateSource::pass_on_refusal() {
     Place place;
-    std::uint64_t line = 0, column = 0;
     place.file = next_text();
-    fill(&line, sizeof line);
-    fill(&column, sizeof column);
-    place.line = static_cast<int>(line);
-    place.column = static_cast<int>(column);
+    place.line = static_cast<int>(next_number());
+    place.column = static_cast<int>(next_number());
     if (place.file.empty())
         place.file = path_;
     const std::string problem = next_text(), remedy = next_text();

@@ -5,7 +5,9 @@
 #include <sys/types.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -36,6 +38,7 @@ public:
 private:
     void fill(void* to, std::size_t size);
     char next_kind();
+    std::uint64_t next_number(std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
     std::string next_text();
     [[noreturn]] void pass_on_refusal();
     [[noreturn]] void tell_end(bool silent);

@@ -2,7 +2,6 @@
 
 #include "graze/record/samples.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <utility>
@@ -13,9 +12,10 @@ namespace graze {
 /// after them. Each row of the source, except those near its ends, is among them exactly once.
 class SlidingSamples {
 public:
-    SlidingSamples(std::shared_ptr<SampleSource> source, std::size_t margin)
-        : source_(std::move(source)), margin_(margin), first_(margin) {
-        samples_.clear(source_->header().channels.size());
+    /// @param begun rows that were read from the source already
+    SlidingSamples(std::shared_ptr<SampleSource> source, std::size_t margin, Samples begun = {})
+        : source_(std::move(source)), margin_(margin), first_(margin), samples_(std::move(begun)) {
+        samples_.values.resize(source_->header().channels.size());
     }
     /// Moves the window. @return false when there are no more rows
     bool next() {

@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <string>
-#include <system_error>
 
 namespace graze {
 
@@ -55,31 +53,23 @@ const char* NumberReader::read_beginning(const char* at, const char* end, double
 }
 
 FieldKind NumberReader::read(std::string_view field, bool may_have_comma, double& value) {
-    const char* const end = field.data() + field.size();
-    double read = 0;
     if (field.empty()) // its pointer may be null, so it cannot be parsed
         return FieldKind::missing;
-    if (!may_have_comma || field.find(',') == std::string_view::npos) {
-        if (read_beginning(field.data(), end, read) == end) {
-            const bool has_point = field.find('.') != std::string_view::npos;
-            if (has_point && decimal_ == ',')
-                return FieldKind::text;
-            decimal_ = has_point ? '.' : decimal_;
-            if (is_code_of_missing(read))
-                return FieldKind::missing;
-            value = read;
-            return FieldKind::number;
-        }
-        return is_word_of_missing(field) ? FieldKind::missing : FieldKind::text;
-    }
+    const bool has_comma = may_have_comma && field.find(',') != std::string_view::npos;
+    const bool has_point = field.find('.') != std::string_view::npos;
     constexpr std::size_t longest = 400;
-    if (decimal_ == '.' || field.size() > longest || field.find('.') != std::string_view::npos)
+    if (has_comma && (has_point || field.size() > longest))
         return FieldKind::text;
-    std::array<char, longest> copy{};
-    std::replace_copy(field.begin(), field.end(), copy.begin(), ',', '.'); // a second comma ends the number
-    if (read_beginning(copy.data(), copy.data() + field.size(), read) != copy.data() + field.size())
+    std::string with_point(has_comma ? field : std::string_view());
+    std::replace(with_point.begin(), with_point.end(), ',', '.'); // a second comma ends the number
+    const char *const begin = has_comma ? with_point.data() : field.data(), *const end = begin + field.size();
+    double read = 0;
+    if (read_beginning(begin, end, read) != end)
+        return !has_comma && is_word_of_missing(field) ? FieldKind::missing : FieldKind::text;
+    const char sign = has_comma ? ',' : has_point ? '.' : decimal_;
+    if (decimal_ != 0 && sign != decimal_)
         return FieldKind::text;
-    decimal_ = ',';
+    decimal_ = sign;
     if (is_code_of_missing(read))
         return FieldKind::missing;
     value = read;

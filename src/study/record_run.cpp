@@ -5,7 +5,7 @@
 #include "graze/record/harmonic.hpp"
 #include "graze/record/impacts.hpp"
 #include "graze/record/interpolate.hpp"
-#include "graze/record/record_periods.hpp"
+#include "graze/record/period.hpp"
 #include "graze/record/section.hpp"
 #include "graze/symbolic/function.hpp"
 #include "graze/symbolic/transform.hpp"

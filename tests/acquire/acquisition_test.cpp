@@ -6,19 +6,12 @@
 
 #include <chrono>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <thread>
 
-namespace graze {
+namespace graze::testing {
 namespace {
 
-using testing::contents;
-using testing::different_files;
-using testing::experiment_text;
-using testing::files_of;
 using ::testing::HasSubstr;
-using testing::TemporaryFolder;
-using testing::testbed_bench;
 
 AcquisitionReport run_on(ScpiBench& bench, const std::string& text, const std::string& folder,
                          const AcquisitionOptions& options = {}) {
@@ -97,10 +90,9 @@ TEST(Acquisition, ResumesWithTheSameRecordsInHdf5) {
     ScpiBench bench(testbed_bench());
     for (int runs = 0; runs < 3; ++runs) {
         std::size_t recorded = 0;
-        AcquisitionOptions options;
-        options.recorded = [&](const RecordEntry&) { ++recorded; };
-        options.interrupted = [&] { return recorded == 2 && runs < 2; };
-        run_on(bench, text, folder / "parts", options);
+        run_on(bench, text, folder / "parts",
+               {.interrupted = [&] { return recorded == 2 && runs < 2; },
+                .recorded = [&](const RecordEntry&) { ++recorded; }});
     }
     EXPECT_EQ(files_of(folder / "parts").size(), 8U);
     EXPECT_EQ(different_files(folder / "whole", folder / "parts"), std::vector<std::string>());
@@ -110,12 +102,9 @@ TEST(Acquisition, SendsNoSettingToAnotherInstrument) {
     const TemporaryFolder folder;
     ScpiBench bench(testbed_bench());
     const GeneratorOutput before = bench.generator().output();
-    std::string text = experiment_text();
-    text.replace(text.find("33120A"), 6, "DS345");
     bool begun = false;
-    AcquisitionOptions options;
-    options.begun = [&] { begun = true; };
-    const AcquisitionReport report = run_on(bench, text, folder / "records", options);
+    const AcquisitionReport report = run_on(bench, replaced(experiment_text(), "33120A", "DS345"), folder / "records",
+                                            {.begun = [&] { begun = true; }});
     EXPECT_EQ(report.ending, AcquisitionEnding::foreign);
     EXPECT_TRUE(report.safe);
     EXPECT_FALSE(begun);
@@ -127,9 +116,8 @@ TEST(Acquisition, RepeatsEarlierLevelsOnANewBench) {
     ScpiBench whole(testbed_bench());
     run_on(whole, experiment_text(), folder / "whole");
     std::size_t recorded = 0;
-    AcquisitionOptions options;
-    options.recorded = [&](const RecordEntry&) { ++recorded; };
-    options.interrupted = [&] { return recorded == 4; };
+    const AcquisitionOptions options{.interrupted = [&] { return recorded == 4; },
+                                     .recorded = [&](const RecordEntry&) { ++recorded; }};
     ScpiBench first(testbed_bench()), second(testbed_bench());
     EXPECT_EQ(run_on(first, experiment_text(), folder / "parts", options).ending, AcquisitionEnding::interrupted);
     const AcquisitionReport report = run_on(second, experiment_text("[resume]\nwalk = \"whole\"\n"), folder / "parts");
@@ -167,8 +155,7 @@ TEST(Acquisition, DetectsAnAmplitudeThatIsChangedAtThePanel) {
 TEST(Acquisition, MakesTheOutputSafeAfterAnException) {
     const TemporaryFolder folder;
     ScpiBench bench(testbed_bench());
-    AcquisitionOptions options;
-    options.recorded = [](const RecordEntry&) { throw std::runtime_error("of the caller"); };
+    const AcquisitionOptions options{.recorded = [](const RecordEntry&) { throw std::runtime_error("of the caller"); }};
     EXPECT_THROW(run_on(bench, experiment_text(), folder / "records", options), std::runtime_error);
     EXPECT_EQ(bench.generator().output().amplitude, 0.1);
     EXPECT_THROW(run_on(bench, experiment_text("", "none", "tcp:a:1") + "", "/dev/null/x"), InputError);
@@ -189,9 +176,7 @@ TEST(Acquisition, WaitsUntilSectionsRepeat) {
     const std::string list = contents(folder / "records/manifest.txt");
     EXPECT_THAT(list, HasSubstr("a2000mV_up.csv"));
     ScpiBench chaotic(settings); // whose sections never repeat within the tolerance
-    std::string noisy = text;
-    noisy.replace(noisy.find("v = 0.01"), 8, "v = 1e-6");
-    noisy.replace(noisy.find("most = 20"), 9, "most = 2");
+    const std::string noisy = replaced(replaced(text, "v = 0.01", "v = 1e-6"), "most = 20", "most = 2");
     const AcquisitionReport given_up = run_on(chaotic, noisy, folder / "noisy");
     EXPECT_EQ(given_up.unsettled, 2U);
     EXPECT_THAT(contents(folder / "noisy/manifest.txt"), HasSubstr(",0,2,500,"));
@@ -200,11 +185,10 @@ TEST(Acquisition, WaitsUntilSectionsRepeat) {
 TEST(Acquisition, ChecksTheChannelsOfTheDeviceBeforeAnythingIsSent) {
     const TemporaryFolder folder;
     ScpiBench bench(testbed_bench());
-    std::string text = experiment_text();
-    text.replace(text.find("rate = 500"), 10, "rate = 500\nchannels = [\"V\", \"vv\"]");
+    const std::string text = replaced(experiment_text(), "rate = 500", "rate = 500\nchannels = [\"V\", \"vv\"]");
     EXPECT_THROW(run_on(bench, text, folder / "records"), InputError);
     EXPECT_EQ(bench.generator().output(), GeneratorOutput());
     EXPECT_FALSE(bench.generator().is_remote());
 }
 
-} // namespace graze
+} // namespace graze::testing

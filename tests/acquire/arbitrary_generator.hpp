@@ -1,10 +1,10 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <random>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -103,17 +103,12 @@ private:
         if (has(keeps_numbers)) {
             number_ = std::max(number_, unit_ == "DBM" ? -60.0 : 1e-3);
         } else {
-            const double shown = inside / inner();
-            const double one = unit_ == "DBM" ? 1 : volts();
-            number_ = unit_ != "DBM" ? shown / one : -20;
+            number_ = unit_ != "DBM" ? inside / inner() / volts() : -20;
             offset_ = aside / inner();
         }
         return "";
     }
     std::string obey(const std::string& command, const std::string& argument) {
-        std::ostringstream text;
-        text.precision(7);
-        text << std::scientific;
         const bool asks = command.back() == '?';
         const std::string name = asks ? command.substr(0, command.size() - 1) : command;
         if (name == "*IDN")
@@ -137,23 +132,13 @@ private:
                 number_ = 7;
             return "";
         }
-        if (name == "VOLT:UNIT") {
-            if (asks)
-                return unit_;
-            return change(unit_is_stuck, [&] { unit_ = argument; });
-        }
-        if (name == (has(short_function) ? "FUNC" : "FUNC:SHAP")) {
-            if (asks)
-                return shape_;
-            return change(shape_is_stuck, [&] { shape_ = argument; });
-        }
-        if (name == "OUTP:LOAD") {
-            if (asks) {
-                text << load_;
-                return text.str();
-            }
-            return change(load_is_stuck, [&] { load_ = argument == "INF" ? 9.9e37 : std::stod(argument); });
-        }
+        if (name == "VOLT:UNIT")
+            return asks ? unit_ : change(unit_is_stuck, [&] { unit_ = argument; });
+        if (name == (has(short_function) ? "FUNC" : "FUNC:SHAP"))
+            return asks ? shape_ : change(shape_is_stuck, [&] { shape_ = argument; });
+        if (name == "OUTP:LOAD")
+            return asks ? fmt::format("{:.7e}", load_)
+                        : change(load_is_stuck, [&] { load_ = argument == "INF" ? 9.9e37 : std::stod(argument); });
         if (name == "AM:STAT" || name == "BURS:STAT" || name == "SWE:STAT" || name == "SUM:STAT") {
             const std::string which = name.substr(0, name.find(':'));
             if (asks)
@@ -168,10 +153,8 @@ private:
                                                     : nullptr;
         if (value == nullptr)
             return refuse("-113,\"Undefined header\"");
-        if (asks) {
-            text << *value;
-            return text.str();
-        }
+        if (asks)
+            return fmt::format("{:.7e}", *value);
         if (argument == "MIN") {
             if (!has(knows_minimum) || name != "VOLT")
                 return refuse("-224,\"Illegal parameter value\"");

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "base/temporary_folder.hpp"
+#include "bench/testbed.hpp"
 #include "graze/acquire/experiment.hpp"
-#include "graze/model/catalogue.hpp"
 #include "instrument/scpi_bench.hpp"
+
+#include <gtest/gtest.h>
 
 #include <filesystem>
 #include <map>
@@ -14,12 +16,7 @@ namespace graze::testing {
 
 /// Settings of a bench: the testbed with noise and converters.
 inline BenchSettings testbed_bench() {
-    BenchSettings settings;
-    settings.model = load_model("electromagnetic-testbed");
-    settings.amplitude = driven_input(settings.model, "V0", "--amplitude");
-    settings.frequency = driven_input(settings.model, "f", "--frequency");
-    for (const char* text : {"V=voltage:V", "I=I:A", "q=q:m", "v=v:m/s"})
-        settings.channels.push_back(bench_channel(settings.model, text, "--channel"));
+    BenchSettings settings = testbed({"V=voltage:V", "I=I:A", "q=q:m", "v=v:m/s"});
     settings.channels[3].noise = 1e-3;
     settings.channels[3].range = 1;
     return settings;
@@ -37,6 +34,13 @@ inline std::string experiment_text(const std::string& more = "", const std::stri
            "[sweep]\nfrequency = 6.1\namplitude = { from = 9.4, to = 9.6, step = 0.1, back = true }\n"
            "[settle]\ntime = 0.5\n[record]\ntime = 1\n" +
            more;
+}
+
+/// The text with a part replaced.
+inline std::string replaced(std::string text, const std::string& part, const std::string& by) {
+    const std::size_t at = text.find(part);
+    EXPECT_NE(at, std::string::npos) << part;
+    return at == std::string::npos ? text : text.replace(at, part.size(), by);
 }
 
 /// Contents of all files of a folder, by name.

@@ -3,24 +3,19 @@
 #include "acquire/bench_experiment.hpp"
 #include "graze/base/input_errors.hpp"
 
+#include <array>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <random>
 
-namespace graze {
+namespace graze::testing {
 namespace {
 
-using testing::experiment_text;
 using ::testing::HasSubstr;
 
 /// The error message for a text of which a part is replaced.
 std::string message(const std::string& part, const std::string& by) {
-    std::string text = experiment_text();
-    const std::size_t at = text.find(part);
-    EXPECT_NE(at, std::string::npos) << part;
-    text.replace(at, part.size(), by);
     try {
-        parse_experiment(text, "e.toml");
+        parse_experiment(replaced(experiment_text(), part, by), "e.toml");
     } catch (const InputError& error) {
         return error.what();
     }
@@ -47,10 +42,9 @@ TEST(Experiment, HasTheLevelsOfItsSweep) {
 }
 
 TEST(Experiment, MayStepTheFrequency) {
-    std::string text = experiment_text();
-    text.replace(text.find("frequency = 6.1"), 15, "frequency = { from = 6, to = 7, step = 0.5, back = true }");
-    text.replace(text.find("amplitude = { from"), text.find("true }\n[settle]") - text.find("amplitude = { from") + 6,
-                 "amplitude = 9");
+    const std::string text =
+        replaced(replaced(experiment_text(), "{ from = 9.4, to = 9.6, step = 0.1, back = true }", "9"), "= 6.1",
+                 "= { from = 6, to = 7, step = 0.5, back = true }");
     const Experiment experiment = parse_experiment(text, "e.toml");
     ASSERT_EQ(experiment.levels.size(), 6U);
     EXPECT_EQ(experiment.levels[1].frequency, 6.5);
@@ -59,45 +53,45 @@ TEST(Experiment, MayStepTheFrequency) {
 }
 
 TEST(Experiment, ErrorsHavePlaceAndRemedy) {
-    EXPECT_THAT(message("name = \"sweep\"", "name = \"../sweep\""), HasSubstr("e.toml:1:8: '../sweep' cannot be"));
-    EXPECT_THAT(message("name = \"sweep\"", ""), HasSubstr("e.toml:1:1: the experiment has no name"));
-    EXPECT_THAT(message("step = 0.1", "step = 0"), HasSubstr("e.toml:16:44: sweep.amplitude.step makes inf steps"));
-    EXPECT_THAT(message("step = 0.1", "step = 0.15"), HasSubstr("do not reach 9.6 with a step of 0.15"));
-    EXPECT_THAT(message("to = 9.6", "to = 10.1"),
-                HasSubstr("e.toml:16:13: the amplitude 10.1 is beyond the limits, 0 to "
-                          "10; nothing has been sent"));
-    EXPECT_THAT(message("frequency = 6.1", "frequency = 21"),
-                HasSubstr("the frequency 21 is beyond the limits, 1 to 20"));
-    EXPECT_THAT(message("safe = 0.1", "safe = 11"), HasSubstr("limits.safe is 11; give from 0 to 10"));
-    EXPECT_THAT(message("safe = 0.1\n", ""), HasSubstr("limits has no safe"));
-    EXPECT_THAT(message("[limits]", "[limit]"), HasSubstr("the experiment has no limits"));
-    EXPECT_THAT(message("[settle]", "[settling]"), HasSubstr("e.toml:17:2: unknown key 'settling'; known: name"));
-    EXPECT_THAT(message("tcp:127.0.0.1:1", "tcp:here"),
-                HasSubstr("'tcp:here' is not an address of a device that takes samples"));
-    EXPECT_THAT(message("rate = 500", "rate = nan"), HasSubstr("samples.rate is nan"));
-    EXPECT_THAT(message("rate = 500", "rate = \"fast\""), HasSubstr("samples.rate must be a number, not a string"));
-    EXPECT_THAT(message("time = 1", "time = 0"), HasSubstr("a record would have 0 samples"));
-    EXPECT_THAT(message("time = 0.5", "most = 3"), HasSubstr("most applies to sections"));
-    EXPECT_THAT(message("time = 0.5", "reference = \"V\"\nmost = 3"), HasSubstr("settle has no tolerance"));
-    EXPECT_THAT(message("timeout = 0.2", "parity = \"maybe\""), HasSubstr("give one of none, odd, even"));
-    EXPECT_THAT(message("rate = 500", "rate = 500\nchannels = [\"V\", \"V\"]"), HasSubstr("'V' occurs twice"));
-    EXPECT_THAT(message("step = 0.1", "step = 1e-9"), HasSubstr("give one that makes from 1 to 9999"));
-    EXPECT_THAT(message("[sweep]", "[sweep"), HasSubstr("docs/experiment.md shows how an experiment is written"));
-    EXPECT_THAT(message("\"33120A\"", "\" \""), HasSubstr("generator.identity is empty; give a text"));
-    EXPECT_THAT(message("timeout = 0.2", "attempts = 1.5"),
-                HasSubstr("generator.attempts is 1.5; give a whole number from 1 to 100"));
-    EXPECT_THAT(message("timeout = 0.2", "attempts = \"a\""), HasSubstr("must be a whole number, not a string"));
-    EXPECT_THAT(message("rate = 500", "rate = 500\nchannels = [\"V,I\"]"),
-                HasSubstr("'V,I' is not a name of a channel"));
-    EXPECT_THAT(message("rate = 500", "rate = 500\npatience = 0.5"), HasSubstr("samples.patience is 0.5"));
+    const std::vector<std::array<std::string, 3>> mistakes{
+        // a part of the text, another one in its place, the message
+        {"name = \"sweep\"", "name = \"../sweep\"", "e.toml:1:8: '../sweep' cannot be"},
+        {"name = \"sweep\"", "", "e.toml:1:1: the experiment has no name"},
+        {"step = 0.1", "step = 0", "e.toml:16:44: sweep.amplitude.step makes inf steps"},
+        {"step = 0.1", "step = 0.15", "do not reach 9.6 with a step of 0.15"},
+        {"to = 9.6", "to = 10.1",
+         "e.toml:16:13: the amplitude 10.1 is beyond the limits, 0 to 10; nothing has been sent"},
+        {"frequency = 6.1", "frequency = 21", "the frequency 21 is beyond the limits, 1 to 20"},
+        {"safe = 0.1", "safe = 11", "limits.safe is 11; give from 0 to 10"},
+        {"safe = 0.1\n", "", "limits has no safe"},
+        {"[limits]", "[limit]", "the experiment has no limits"},
+        {"[settle]", "[settling]", "e.toml:17:2: unknown key 'settling'; known: name"},
+        {"tcp:127.0.0.1:1", "tcp:here", "'tcp:here' is not an address of a device that takes samples"},
+        {"rate = 500", "rate = nan", "samples.rate is nan"},
+        {"rate = 500", "rate = \"fast\"", "samples.rate must be a number, not a string"},
+        {"time = 1", "time = 0", "a record would have 0 samples"},
+        {"time = 0.5", "most = 3", "most applies to sections"},
+        {"time = 0.5", "reference = \"V\"\nmost = 3", "settle has no tolerance"},
+        {"timeout = 0.2", "parity = \"maybe\"", "give one of none, odd, even"},
+        {"rate = 500", "rate = 500\nchannels = [\"V\", \"V\"]", "'V' occurs twice"},
+        {"step = 0.1", "step = 1e-9", "give one that makes from 1 to 9999"},
+        {"[sweep]", "[sweep", "docs/experiment.md shows how an experiment is written"},
+        {"\"33120A\"", "\" \"", "generator.identity is empty; give a text"},
+        {"timeout = 0.2", "attempts = 1.5", "generator.attempts is 1.5; give a whole number from 1 to 100"},
+        {"timeout = 0.2", "attempts = \"a\"", "must be a whole number, not a string"},
+        {"rate = 500", "rate = 500\nchannels = [\"V,I\"]", "'V,I' is not a name of a channel"},
+        {"rate = 500", "rate = 500\npatience = 0.5", "samples.patience is 0.5"},
+        {"\"none\"", "\"TCPIP0::host::INSTR\"", "give the port at which it takes SCPI"},
+        {"timeout = 0.2", "timeout = 0.2\nload = \"high\"", "give one of infinite"},
+    };
+    for (const auto& [part, by, text] : mistakes)
+        EXPECT_THAT(message(part, by), HasSubstr(text));
     const std::string falling = message("frequency = [1, 20]", "frequency = [20, 1]");
     EXPECT_THAT(falling, HasSubstr("limits.frequency goes from 20 to 1; give the smaller one first"));
     EXPECT_EQ(std::count(falling.begin(), falling.end(), ';'), 1) << falling;
     for (const char* address : {"tcp:host:4711:5", "tcp::1", "tcp:host:0", "tcp:host:70000", "serial:", "tcp:[::1:1"})
         EXPECT_THAT(message("tcp:127.0.0.1:1", address), HasSubstr("is not an address of a device that takes samples"))
             << address;
-    EXPECT_THAT(message("\"none\"", "\"TCPIP0::host::INSTR\""), HasSubstr("give the port at which it takes SCPI"));
-    EXPECT_THAT(message("timeout = 0.2", "timeout = 0.2\nload = \"high\""), HasSubstr("give one of infinite"));
 }
 
 TEST(Experiment, ReportsAllErrorsAtOnce) {
@@ -128,4 +122,4 @@ TEST(Experiment, RefusesUnknownKeys) {
     }
 }
 
-} // namespace graze
+} // namespace graze::testing

@@ -3,18 +3,14 @@
 #include "acquire/bench_experiment.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-namespace graze {
+namespace graze::testing {
 namespace {
 
-using testing::contents;
-using testing::experiment_text;
-using testing::files_of;
 using ::testing::HasSubstr;
-using testing::TemporaryFolder;
 
 const RecordHeader header{{"t", "s"}, {{"x", ""}}};
+const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
 
 /// Writes a record without committing it.
 void write(RecordFolder& records, const Level& level) {
@@ -25,13 +21,10 @@ void write(RecordFolder& records, const Level& level) {
 
 void commit(RecordFolder& records, const Level& level) {
     write(records, level);
-    RecordEntry entry;
-    entry.level = level;
-    entry.samples = 2;
-    records.commit(entry);
+    records.commit({.level = level, .samples = 2});
 }
 
-std::string message(const std::string& path, const Experiment& experiment) {
+std::string message(const std::string& path) {
     try {
         const RecordFolder records(path, experiment, 0);
     } catch (const InputError& error) {
@@ -44,7 +37,6 @@ std::string message(const std::string& path, const Experiment& experiment) {
 
 TEST(RecordFolder, ListsCommittedRecords) {
     const TemporaryFolder folder;
-    const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
     {
         RecordFolder records(folder / "a/b", experiment, 0);
         commit(records, experiment.levels[0]);
@@ -60,7 +52,6 @@ TEST(RecordFolder, ListsCommittedRecords) {
 
 TEST(RecordFolder, RenamesACompleteRecordThatIsListed) {
     const TemporaryFolder folder;
-    const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
     const std::string name = experiment.record_name(experiment.levels[0]);
     {
         RecordFolder records(folder / "r", experiment, 0);
@@ -73,7 +64,7 @@ TEST(RecordFolder, RenamesACompleteRecordThatIsListed) {
     EXPECT_EQ(contents(folder / ("r/" + name)), "t [s], x\n0,2\n1,1\n");
     // A truncated record is dropped.
     std::filesystem::resize_file(folder / ("r/" + name), 5);
-    EXPECT_THAT(message(folder / "r", experiment), "");
+    EXPECT_THAT(message(folder / "r"), "");
     { EXPECT_FALSE(RecordFolder(folder / "r", experiment, 0).has(experiment.levels[0])); }
     EXPECT_THAT(contents(folder / "r/manifest.txt"), HasSubstr("\n2,0002"));
 }
@@ -82,7 +73,6 @@ TEST(RecordFolder, RenamesACompleteRecordThatIsListed) {
 /// list.
 TEST(RecordFolder, CanBeFinishedByACopyOfItsProcess) {
     const TemporaryFolder folder;
-    const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
     const std::string name = experiment.record_name(experiment.levels[0]);
     RecordFolder copy(folder / "r", experiment, 0);
     {
@@ -106,21 +96,17 @@ TEST(RecordFolder, CanBeFinishedByACopyOfItsProcess) {
 
 TEST(RecordFolder, BelongsToOneExperimentAndOneProcess) {
     const TemporaryFolder folder;
-    const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
     RecordFolder records(folder / "r", experiment, 0);
-    EXPECT_THAT(message(folder / "r", experiment), HasSubstr("another experiment is recorded into this folder"));
-    std::string text = experiment_text();
-    text.replace(text.find("rate = 500"), 10, "rate = 250");
-    const Experiment other = parse_experiment(text, "e.toml");
+    EXPECT_THAT(message(folder / "r"), HasSubstr("another experiment is recorded into this folder"));
+    const Experiment other = parse_experiment(replaced(experiment_text(), "= 500", "= 250"), "e.toml");
     RecordFolder(folder / "other", other, 0);
-    EXPECT_THAT(message(folder / "other", experiment),
+    EXPECT_THAT(message(folder / "other"),
                 HasSubstr("the folder has records of other settings: 'rate 250' there, 'rate 500' here"));
     EXPECT_NE(records.identity(), RecordFolder(folder / "third", experiment, 0).identity());
 }
 
 TEST(RecordFolder, FollowsNoLinksAndReplacesNoFiles) {
     const TemporaryFolder folder;
-    const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
     std::ofstream(folder / "mine") << "mine";
     std::filesystem::create_directory(folder / "r");
     const std::string name = experiment.record_name(experiment.levels[0]);
@@ -136,15 +122,13 @@ TEST(RecordFolder, FollowsNoLinksAndReplacesNoFiles) {
 
 TEST(RecordFolder, RefusesAnInvalidList) {
     const TemporaryFolder folder;
-    const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
     { RecordFolder records(folder / "r", experiment, 0); }
     for (const char* line :
          {"x", "1,../../x,1,1,1,1,1,1,1,1", "99,0099_f6100mHz_a9400mV_up.csv,1,1,1,1,1,1,1,1", ",,,,,,,,,"}) {
         std::ofstream(folder / "r/manifest.txt") << "heading\n" << line << "\n";
-        EXPECT_THAT(message(folder / "r", experiment), HasSubstr("manifest.txt:2:1: this is not a line of a list"))
-            << line;
+        EXPECT_THAT(message(folder / "r"), HasSubstr("manifest.txt:2:1: this is not a line of a list")) << line;
     }
-    EXPECT_THAT(message("/dev/null/x", experiment), HasSubstr("it cannot be opened as a folder"));
+    EXPECT_THAT(message("/dev/null/x"), HasSubstr("it cannot be opened as a folder"));
 }
 
-} // namespace graze
+} // namespace graze::testing

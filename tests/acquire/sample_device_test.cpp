@@ -2,16 +2,13 @@
 
 #include "acquire/scripted_line.hpp"
 
-#include <chrono>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <thread>
 
-namespace graze {
+namespace graze::testing {
 namespace {
 
 using ::testing::HasSubstr;
-using testing::ScriptedLine;
 
 /// A device of three rows; a test replaces one of its answers.
 ScriptedLine device_with(const std::string& question, const std::string& answer) {
@@ -120,4 +117,4 @@ TEST(SampleDevice, ReportsWhetherItCanReturnToAMark) {
     EXPECT_FALSE(TextSampleDevice(borrowed(hardware), 0.02, {}).mark(7));
 }
 
-} // namespace graze
+} // namespace graze::testing

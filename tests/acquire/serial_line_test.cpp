@@ -12,7 +12,6 @@
 #include <cstdlib>
 #include <fcntl.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <mutex>
 #include <numbers>
 #include <poll.h>
@@ -20,14 +19,10 @@
 #include <thread>
 #include <unistd.h>
 
-namespace graze {
+namespace graze::testing {
 namespace {
 
-using testing::different_files;
-using testing::experiment_text;
 using ::testing::HasSubstr;
-using testing::TemporaryFolder;
-using testing::testbed_bench;
 
 /// The far end of a serial line, controlled by a test.
 class FarEnd {
@@ -130,7 +125,7 @@ private:
 /// A bench service in a thread of its own.
 class Served {
 public:
-    explicit Served(const BenchSettings& bench = testbed_bench(), ServiceSettings service = {}) : bench_(bench) {
+    explicit Served(ServiceSettings service = {}) {
         service.port = port();
         service.on_demand = service.speed == 1;
         service_.emplace(bench_, service);
@@ -163,7 +158,7 @@ public:
 
 private:
     TemporaryFolder folder_;
-    ScpiBench bench_;
+    ScpiBench bench_{testbed_bench()};
     std::optional<BenchService> service_;
     std::atomic<bool> stop_{false};
     std::thread thread_;
@@ -224,9 +219,7 @@ TEST(SerialLine, ReportsALostConnection) {
     EXPECT_EQ(ending([&] { line->receive(1); }), AcquisitionEnding::line_lost);
     EXPECT_EQ(ending([&] { line->send("x"); }), AcquisitionEnding::line_lost);
     EXPECT_EQ(ending([&] { line->reopen(); }), AcquisitionEnding::line_lost);
-    SerialSettings none;
-    none.port = "/nowhere";
-    EXPECT_EQ(ending([&] { open_serial_line(none); }), AcquisitionEnding::line_lost);
+    EXPECT_EQ(ending([] { open_serial_line({.port = "/nowhere"}); }), AcquisitionEnding::line_lost);
     EXPECT_EQ(ending([&] { open_tcp_line("127.0.0.1", 1, 1); }), AcquisitionEnding::line_lost);
 }
 
@@ -257,9 +250,8 @@ TEST(Acquisition, GivesTheSameRecordsOverAPseudoTerminal) {
     Served one, other;
     EXPECT_EQ(one.run(folder / "one").ending, AcquisitionEnding::complete);
     std::size_t recorded = 0;
-    AcquisitionOptions options;
-    options.recorded = [&](const RecordEntry&) { ++recorded; };
-    options.interrupted = [&] { return recorded == 2; };
+    const AcquisitionOptions options{.interrupted = [&] { return recorded == 2; },
+                                     .recorded = [&](const RecordEntry&) { ++recorded; }};
     EXPECT_EQ(other.run(folder / "other", options).ending, AcquisitionEnding::interrupted);
     const AcquisitionReport report = other.run(folder / "other");
     EXPECT_EQ(report.ending, AcquisitionEnding::complete) << report.detail;
@@ -292,9 +284,7 @@ TEST(Acquisition, TakesSamplesOverASerialLine) {
 
 TEST(Acquisition, RunsAtTheSpeedOfTheClock) {
     const TemporaryFolder folder;
-    ServiceSettings fast;
-    fast.speed = 40;
-    Served served(testbed_bench(), fast);
+    Served served({.speed = 40});
     const auto begin = std::chrono::steady_clock::now();
     const AcquisitionReport report = served.run(folder / "records");
     EXPECT_EQ(report.ending, AcquisitionEnding::complete) << report.detail;
@@ -313,9 +303,7 @@ TEST(Acquisition, CompletesOnALineThatLosesCharacters) {
     const TemporaryFolder folder;
     Served clean;
     EXPECT_EQ(clean.run(folder / "clean").ending, AcquisitionEnding::complete);
-    ServiceSettings lossy;
-    lossy.drop = 0.004;
-    Served served(testbed_bench(), lossy);
+    Served served({.drop = 0.004});
     const AcquisitionReport report = served.run(folder / "lossy");
     EXPECT_EQ(report.ending, AcquisitionEnding::complete) << report.detail;
     EXPECT_TRUE(report.safe);
@@ -324,10 +312,7 @@ TEST(Acquisition, CompletesOnALineThatLosesCharacters) {
 
 TEST(Acquisition, MakesTheOutputSafeAfterALineBreaks) {
     const TemporaryFolder folder;
-    ServiceSettings breaking;
-    breaking.lines = 30;
-    breaking.broken = 0.3;
-    Served served(testbed_bench(), breaking);
+    Served served({.lines = 30, .broken = 0.3});
     const AcquisitionReport report = served.run(folder / "records");
     EXPECT_EQ(report.ending, AcquisitionEnding::line_lost) << report.detail;
     EXPECT_TRUE(report.safe) << report.unsafe_because;
@@ -339,10 +324,7 @@ TEST(Acquisition, MakesTheOutputSafeAfterALineBreaks) {
 
 TEST(Acquisition, ReportsAGeneratorThatIsOutOfReach) {
     const TemporaryFolder folder;
-    ServiceSettings breaking;
-    breaking.lines = 30;
-    breaking.broken = 3600;
-    Served served(testbed_bench(), breaking);
+    Served served({.lines = 30, .broken = 3600});
     const auto begin = std::chrono::steady_clock::now();
     const AcquisitionReport report = served.run(folder / "records", {}, 0.3);
     EXPECT_EQ(report.ending, AcquisitionEnding::line_lost);
@@ -353,9 +335,7 @@ TEST(Acquisition, ReportsAGeneratorThatIsOutOfReach) {
 
 TEST(Acquisition, MakesTheOutputSafeAfterSamplesStop) {
     const TemporaryFolder folder;
-    ServiceSettings breaking;
-    breaking.rows = 1600;
-    Served served(testbed_bench(), breaking);
+    Served served({.rows = 1600});
     const AcquisitionReport report = served.run(folder / "records");
     EXPECT_EQ(report.ending, AcquisitionEnding::line_lost) << report.detail;
     EXPECT_TRUE(report.safe);
@@ -363,4 +343,4 @@ TEST(Acquisition, MakesTheOutputSafeAfterSamplesStop) {
     EXPECT_EQ(served.output().amplitude, 0.1);
 }
 
-} // namespace graze
+} // namespace graze::testing

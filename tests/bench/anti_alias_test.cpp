@@ -1,6 +1,5 @@
 #include "bench/anti_alias.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>

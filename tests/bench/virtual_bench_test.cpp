@@ -19,13 +19,9 @@ BenchSettings testbed() {
 BenchSettings wave() {
     BenchSettings settings;
     settings.model = parse_model(R"(name = "wave"
-[parameters]
-a = 1
-w = 1
-[states]
-phase = { initial = 0, period = "2*pi" }
-[modes.only]
-rates = { phase = "w" }
+parameters = { a = 1, w = 1 }
+states = { phase = { initial = 0, period = "2*pi" } }
+modes.only.rates = { phase = "w" }
 )",
                                  "wave.toml");
     settings.amplitude = driven_input(settings.model, "a=3", "");
@@ -153,14 +149,9 @@ TEST(VirtualBench, RepeatsItsSamplesAfterReturningToAMark) {
 TEST(VirtualBench, SaysWhyTheMotionHasEnded) {
     BenchSettings settings = wave();
     settings.model = parse_model(R"(name = "blow-up"
-[parameters]
-a = 1
-w = 1
-[states]
-x = 1
-phase = { initial = 0, period = "2*pi" }
-[modes.only]
-rates = { x = "a*x^2", phase = "w" }
+parameters = { a = 1, w = 1 }
+states = { x = 1, phase = { initial = 0, period = "2*pi" } }
+modes.only.rates = { x = "a*x^2", phase = "w" }
 )",
                                  "blow-up.toml");
     settings.channels = {bench_channel(settings.model, "x", "")};

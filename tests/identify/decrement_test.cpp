@@ -1,7 +1,7 @@
 #include "graze/identify/decrement.hpp"
 
 #include "graze/base/input_error.hpp"
-#include "identify/noise.hpp"
+#include "identify/releases.hpp"
 
 #include <numbers>
 #include <string>
@@ -19,16 +19,20 @@ double velocity(double t, double displacement) {
     return -displacement * frequency * frequency / damped * std::exp(-damping * frequency * t) * std::sin(damped * t);
 }
 
-DecayPeaks peaks_of(Noise& noise, double sigma, double rate, std::size_t most = 10, double rest = 0) {
-    Samples samples;
-    samples.clear(1);
+DecayPeaks peaks_of(Noise& noise, double sigma, double rest = 0) {
+    constexpr double rate = 1000;
     const double begin = 0.001 * noise.uniform();
-    for (int i = 0; i < static_cast<int>(rate); ++i) {
-        samples.times.push_back(begin + i / rate);
-        samples.values[0].push_back(rest + velocity(samples.times.back(), 0.762e-3) + sigma * noise.normal());
-    }
-    StoredSamples source({{"t", "s"}, {{"v", "m/s"}}}, std::move(samples));
-    return decay_peaks(source, 0, most);
+    const auto clock = [&](std::size_t i) { return begin + static_cast<double>(i) / rate; };
+    const Wave wave = [&](double t) { return rest + velocity(t, 0.762e-3) + sigma * noise.normal(); };
+    return peaks_in(sampled_at(clock, static_cast<std::size_t>(rate), {wave}));
+}
+
+/// Peaks of several releases at 1 kHz.
+std::vector<DecayPeaks> releases_of(Noise& noise, int count, double sigma, double rest = 0) {
+    std::vector<DecayPeaks> releases;
+    for (int r = 0; r < count; ++r)
+        releases.push_back(peaks_of(noise, sigma, rest));
+    return releases;
 }
 
 } // namespace
@@ -53,9 +57,7 @@ TEST(Decrement, IsExactForExactPeaks) {
 
 TEST(Decrement, HasNineDigitsWithoutNoise) {
     Noise noise(1);
-    std::vector<DecayPeaks> releases;
-    for (int r = 0; r < 10; ++r)
-        releases.push_back(peaks_of(noise, 0, 1000));
+    const std::vector<DecayPeaks> releases = releases_of(noise, 10, 0);
     const Decrement found = logarithmic_decrement(releases);
     EXPECT_EQ(releases[0].times.size(), 10U);
     EXPECT_NEAR(found.frequency.value, frequency, 1e-9 * frequency);
@@ -68,12 +70,9 @@ TEST(Decrement, IntervalsCoverTheTruth) {
     double scatter = 0, pairs = 0;
     for (std::size_t seed = 0; seed < experiments; ++seed) {
         Noise noise(seed);
-        std::vector<DecayPeaks> releases;
-        for (int r = 0; r < 10; ++r)
-            releases.push_back(peaks_of(noise, 5e-4, 1000));
-        const Decrement found = logarithmic_decrement(releases);
-        frequencies += std::abs(found.frequency.value - frequency) < found.frequency.half_width() ? 1 : 0;
-        dampings += std::abs(found.damping.value - damping) < found.damping.half_width() ? 1 : 0;
+        const Decrement found = logarithmic_decrement(releases_of(noise, 10, 5e-4));
+        frequencies += covers(found.frequency, frequency) ? 1 : 0;
+        dampings += covers(found.damping, damping) ? 1 : 0;
         scatter += std::pow(found.damping.value - damping, 2);
         pairs += std::pow(found.pair_damping - damping, 2);
     }
@@ -91,27 +90,21 @@ TEST(Decrement, IsFoundWithFewSamplesAPeriod) {
             constexpr std::size_t phases = 40;
             for (std::size_t k = 0; k < phases; ++k) {
                 Noise noise(k);
-                Samples samples;
-                samples.clear(1);
-                for (int i = 0; i < 12.5 * in_a_period; ++i) {
-                    const double t = i * 2 * std::numbers::pi / (damped * in_a_period);
-                    samples.times.push_back(t);
-                    samples.values[0].push_back(0.05 +
-                                                std::exp(-damping * frequency * t) *
-                                                    std::cos(damped * t + 0.157 * static_cast<double>(k)) +
-                                                relative * noise.normal());
-                }
-                StoredSamples source({{"t", "s"}, {{"v", "m/s"}}}, std::move(samples));
-                const DecayPeaks peaks = decay_peaks(source, 0, 10);
+                const auto clock = [&](std::size_t i) {
+                    return static_cast<double>(i) * 2 * std::numbers::pi / (damped * in_a_period);
+                };
+                const Wave wave = [&](double t) {
+                    return 0.05 + damped_cosine(frequency, damping, t, 0.157 * static_cast<double>(k)) +
+                           relative * noise.normal();
+                };
+                const auto count = static_cast<std::size_t>(std::ceil(12.5 * in_a_period));
+                const DecayPeaks peaks = peaks_in(sampled_at(clock, count, {wave}));
                 EXPECT_GE(peaks.times.size(), 3U) << in_a_period << ' ' << k;
                 EXPECT_TRUE(peaks.wave.residual_test.is_noise()) << peaks.wave.residual_test.text();
                 const DampedOscillation found = damped_oscillation({&peaks.wave, 1});
                 const double roundoff = 1e-10;
-                frequencies +=
-                    std::abs(found.frequency.value - frequency) < found.frequency.half_width() + roundoff * frequency
-                        ? 1
-                        : 0;
-                dampings += std::abs(found.damping.value - damping) < found.damping.half_width() + roundoff ? 1 : 0;
+                frequencies += covers(found.frequency, frequency, roundoff * frequency) ? 1 : 0;
+                dampings += covers(found.damping, damping, roundoff) ? 1 : 0;
             }
             EXPECT_GE(frequencies, 34U) << in_a_period << ' ' << relative; // 38 +- 1.4 where there is noise
             EXPECT_GE(dampings, 33U) << in_a_period << ' ' << relative;
@@ -121,16 +114,10 @@ TEST(Decrement, IsFoundWithFewSamplesAPeriod) {
 // An outlier makes all peaks small relative to the residuals: the message must name the outlier.
 TEST(Decrement, RefusesARecordWithAnOutlier) {
     Noise noise(3);
-    Samples samples;
-    samples.clear(1);
-    for (int i = 0; i < 500; ++i) {
-        samples.times.push_back(0.001 * i);
-        samples.values[0].push_back(velocity(0.001 * i, 0.762e-3) + 1e-4 * noise.normal());
-    }
+    Samples samples = sampled(1000, 500, {[&](double t) { return velocity(t, 0.762e-3) + 1e-4 * noise.normal(); }});
     samples.values[0][150] += 30;
-    StoredSamples source({{"t", "s"}, {{"v", "m/s"}}}, std::move(samples));
     try {
-        decay_peaks(source, 0, 10);
+        peaks_in(samples);
         ADD_FAILURE() << "it was accepted";
     } catch (const InputError& error) {
         EXPECT_NE(std::string(error.what()).find("1 of "), std::string::npos) << error.what();
@@ -151,10 +138,9 @@ TEST(Decrement, RefusesAGapThatMayHideAPeriod) {
             samples.times.push_back(t);
             samples.values[0].push_back(velocity(t, 0.762e-3) + 1e-4 * noise.normal());
         }
-        StoredSamples source({{"t", "s"}, {{"v", "m/s"}}}, std::move(samples));
         std::string told;
         try {
-            const DecayPeaks peaks = decay_peaks(source, 0, 10);
+            const DecayPeaks peaks = peaks_in(std::move(samples));
             const DampedOscillation found = damped_oscillation({&peaks.wave, 1});
             EXPECT_NEAR(found.frequency.value, frequency, 4 * found.frequency.error);
         } catch (const InputError& error) {
@@ -173,17 +159,15 @@ TEST(Decrement, FindsTheRestPosition) {
     std::size_t dampings = 0, rests = 0;
     for (std::size_t seed = 0; seed < experiments; ++seed) {
         Noise noise(seed);
-        std::vector<DecayPeaks> releases;
-        for (int r = 0; r < 3; ++r)
-            releases.push_back(peaks_of(noise, 2e-3, 1000, 10, rest));
+        const std::vector<DecayPeaks> releases = releases_of(noise, 3, 2e-3, rest);
         const Decrement found = logarithmic_decrement(releases);
-        dampings += std::abs(found.damping.value - damping) < found.damping.half_width() ? 1 : 0;
+        dampings += covers(found.damping, damping) ? 1 : 0;
         rests += std::abs(releases[0].rest - rest) < 1.96 * releases[0].rest_error ? 1 : 0;
     }
     expect_coverage(dampings, "damping ratio");
     expect_coverage(rests, "rest position");
     Noise none(1);
-    const DecayPeaks exact = peaks_of(none, 0, 1000, 10, rest);
+    const DecayPeaks exact = peaks_of(none, 0, rest);
     EXPECT_NEAR(exact.rest, rest, 1e-12);
 }
 
@@ -192,17 +176,14 @@ TEST(Decrement, UsesThePeaksThatStandOutFromNoise) {
     std::size_t frequencies = 0;
     for (std::size_t seed = 0; seed < experiments; ++seed) {
         Noise noise(seed);
-        std::vector<DecayPeaks> releases;
-        for (int r = 0; r < 4; ++r)
-            releases.push_back(peaks_of(noise, 0.02, 1000));
-        const Decrement found = logarithmic_decrement(releases);
-        frequencies += std::abs(found.frequency.value - frequency) < found.frequency.half_width() ? 1 : 0;
+        const Decrement found = logarithmic_decrement(releases_of(noise, 4, 0.02));
+        frequencies += covers(found.frequency, frequency) ? 1 : 0;
         EXPECT_NEAR(found.damping.value, damping, 5 * found.damping.error) << seed;
     }
     expect_coverage(frequencies, "natural frequency");
     Noise noise(3);
     try {
-        peaks_of(noise, 0.3, 1000);
+        peaks_of(noise, 0.3);
         ADD_FAILURE() << "noise of four times the first peak";
     } catch (const InputError& error) {
         EXPECT_EQ(std::string(error.what()).find("about nought"), std::string::npos) << error.what();
@@ -214,17 +195,9 @@ TEST(Decrement, UsesThePeaksThatStandOutFromNoise) {
 TEST(Decrement, FindsStrongDamping) {
     for (const double zeta : {0.1, 0.2, 0.3, 0.5}) {
         constexpr double omega = 3, length = 20;
-        constexpr int rows = 3000;
-        Samples samples;
-        samples.clear(1);
-        for (int i = 0; i < rows; ++i) {
-            const double t = length * i / rows;
-            samples.times.push_back(t);
-            samples.values[0].push_back(-std::exp(-zeta * omega * t) *
-                                        std::sin(omega * std::sqrt(1 - zeta * zeta) * t));
-        }
-        StoredSamples source({{"t", "s"}, {{"v", "m/s"}}}, std::move(samples));
-        const Decrement found = logarithmic_decrement(std::vector{decay_peaks(source, 0, 10)});
+        constexpr std::size_t rows = 3000;
+        const Wave wave = [&](double t) { return damped_cosine(omega, zeta, t, std::numbers::pi / 2); };
+        const Decrement found = logarithmic_decrement(std::vector{peaks_in(sampled(rows / length, rows, {wave}))});
         EXPECT_NEAR(found.frequency.value, omega, 1e-8) << zeta;
         EXPECT_NEAR(found.damping.value, zeta, 1e-9) << zeta;
     }

@@ -1,15 +1,12 @@
 #include "graze/identify/fit.hpp"
 
-#include "graze/model/model_file.hpp"
+#include "identify/models.hpp"
 #include "identify/recorded_motion.hpp"
-#include "identify/wall_model.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <vector>
 
 namespace graze::testing {
 
@@ -17,10 +14,20 @@ namespace {
 
 RecordedMotion wall_motion(std::size_t readings = 120) {
     RecordedMotion motion(wall_model(), {"x", "v"}, 0.013, 6.0 / static_cast<double>(readings), readings);
-    for (const char* name : {"c", "k", "wall", "e"})
-        motion.forget(name, 1.02);
-    motion.forget_states();
+    motion.forget_all({"c", "k", "wall", "e"}, 1.02);
     return motion;
+}
+
+/// Fifteen impacts, some of them slow: noise hides them, or creates others. (Their number is not tested: one may be so
+/// slow that the readings are as likely without it.)
+void expect_found_with_slow_impacts(std::uint64_t seed, double factor) {
+    SCOPED_TRACE("seed " + std::to_string(seed) + ", guesses " + std::to_string(factor));
+    RecordedMotion motion(load_model("impact-oscillator"), {"x", "v"}, 0, 0.05, 601);
+    motion.forget_all({"zeta", "omega", "sigma", "e"}, factor);
+    motion.add_noise(0.005, seed);
+    const Fit fit = motion.converged();
+    // With 4 numbers in 18 fits, one exceeds four errors by chance in one of 200 such tests.
+    motion.expect_within_errors(fit);
 }
 
 } // namespace
@@ -31,10 +38,10 @@ TEST(FitErrorsSlow, IntervalsCoverTheTruth) {
     ASSERT_GE(exact.contacts, 3U);
     std::vector<std::size_t> covered(exact.task.parameters.size());
     for (std::size_t seed = 1; seed <= experiments; ++seed) {
+        SCOPED_TRACE(seed);
         RecordedMotion motion = exact;
         motion.add_noise(0.01, seed);
-        const Fit fit = fit_model(System(motion.model), motion.task);
-        EXPECT_EQ(name_of(fit.ending), "converged") << seed << ": " << fit.detail;
+        const Fit fit = motion.converged();
         for (std::size_t j = 0; j < covered.size(); ++j) {
             const Estimate& estimate = fit.numbers[j].estimate;
             covered[j] += std::abs(estimate.value - motion.truth(j)) <= estimate.half_width() ? 1 : 0;
@@ -49,7 +56,7 @@ TEST(FitErrorsSlow, EqualThoseOfTheBootstrap) {
     constexpr std::size_t draws = 150;
     RecordedMotion motion = wall_motion();
     motion.add_noise(0.01, 11);
-    const Fit fit = fit_model(System(motion.model), motion.task);
+    const Fit fit = motion.fit();
     ASSERT_EQ(name_of(fit.ending), "converged") << fit.detail;
     std::vector<double> sums(4), squares(4);
     Noise chance(5);
@@ -81,15 +88,11 @@ TEST(FitErrorsSlow, EqualThoseOfTheBootstrap) {
 
 /// For independent readings of x = x0 + r t the errors have a closed form.
 TEST(FitErrors, EqualThoseOfAStraightLine) {
-    const Model model = parse_model("name = \"line\"\n[parameters]\nr = 3\n[states]\nx = { initial = 1 }\n"
-                                    "[modes.m]\nrates = { x = \"r\" }\n",
-                                    "line.toml");
     constexpr std::size_t count = 50;
-    RecordedMotion motion(model, {"x"}, 0, 0.1, count);
+    RecordedMotion motion(smooth_model("{ r = 3 }", "{ x = 1 }", "{ x = \"r\" }"), {"x"}, 0, 0.1, count);
     motion.add_noise(0.02, 3);
-    motion.forget("r", 0.5);
-    motion.forget_states();
-    const Fit fit = fit_model(System(motion.model), motion.task);
+    motion.forget_all({"r"}, 0.5);
+    const Fit fit = motion.fit();
     ASSERT_EQ(name_of(fit.ending), "converged") << fit.detail;
     const FitRecord& record = motion.task.records[0];
     double t = 0, x = 0, tt = 0, tx = 0;
@@ -132,15 +135,12 @@ TEST(FitErrors, RobustLossesTolerateOutliers) {
             largest = std::max(largest, std::abs(fit.numbers[j].estimate.value / motion.truth(j) - 1));
         return largest;
     };
-    const double squares = worst(fit_model(System(motion.model), motion.task, settings));
+    const double squares = worst(motion.fit(settings));
     for (const FitLoss loss : {FitLoss::huber, FitLoss::cauchy}) {
         settings.loss = loss;
-        const Fit fit = fit_model(System(motion.model), motion.task, settings);
-        EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
+        const Fit fit = motion.converged(settings);
         EXPECT_LT(worst(fit), 0.5 * squares);
-        for (std::size_t j = 0; j < 4; ++j)
-            EXPECT_LE(std::abs(fit.numbers[j].estimate.value - motion.truth(j)), 4 * fit.numbers[j].estimate.error)
-                << fit.numbers[j].name;
+        motion.expect_within_errors(fit);
     }
 }
 
@@ -149,7 +149,7 @@ TEST(FitErrors, ParametersStayWithinBounds) {
     motion.add_noise(0.005, 2);
     motion.task.parameters[3].greatest = 0.6; // the truth is 0.7
     motion.task.parameters[3].guess = 0.55;
-    const Fit fit = fit_model(System(motion.model), motion.task);
+    const Fit fit = motion.fit();
     EXPECT_EQ(name_of(fit.ending), "misfit") << fit.detail;
     EXPECT_TRUE(fit.numbers[3].at_bound);
     EXPECT_NEAR(fit.numbers[3].estimate.value, 0.6, 1e-9);
@@ -160,36 +160,11 @@ TEST(FitErrors, ParametersStayWithinBounds) {
 /// Chaotic motion with noise: each parameter is within four standard errors.
 TEST(FitErrorsSlow, ChaoticMotionWithNoiseIsFitted) {
     RecordedMotion motion(load_model("electromagnetic-testbed"), {"q", "v", "I"}, 4, 0.002, 1000);
-    for (const char* name : {"V0", "zeta", "e", "R"})
-        motion.forget(name, 1.05);
-    motion.forget_states();
+    motion.forget_all({"V0", "zeta", "e", "R"}, 1.05);
     motion.add_noise(0.01, 4);
-    const Fit fit = fit_model(System(motion.model), motion.task);
-    EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
-    for (std::size_t j = 0; j < 4; ++j)
-        EXPECT_LE(std::abs(fit.numbers[j].estimate.value - motion.truth(j)), 4 * fit.numbers[j].estimate.error)
-            << fit.numbers[j].name;
+    const Fit fit = motion.converged();
+    motion.expect_within_errors(fit);
 }
-
-namespace {
-
-/// Fifteen impacts, some of them slow: noise hides them, or creates others. (Their number is not tested: one may be so
-/// slow that the readings are as likely without it.)
-void expect_found_with_slow_impacts(std::uint64_t seed, double factor) {
-    RecordedMotion motion(load_model("impact-oscillator"), {"x", "v"}, 0, 0.05, 601);
-    for (const char* name : {"zeta", "omega", "sigma", "e"})
-        motion.forget(name, factor);
-    motion.forget_states();
-    motion.add_noise(0.005, seed);
-    const Fit fit = fit_model(System(motion.model), motion.task);
-    EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
-    // With 4 numbers in 18 fits, one exceeds four errors by chance in one of 200 such tests.
-    for (std::size_t j = 0; j < 4; ++j)
-        EXPECT_LE(std::abs(fit.numbers[j].estimate.value - motion.truth(j)), 4 * fit.numbers[j].estimate.error)
-            << fit.numbers[j].name << ", seed " << seed << ", guesses " << factor;
-}
-
-} // namespace
 
 /// Records for which the first pass ends with one impact too few or too many, and seems converged.
 TEST(FitErrors, SlowImpactsAreFound) {

@@ -1,17 +1,12 @@
 #include "graze/identify/fit.hpp"
 
 #include "graze/base/input_error.hpp"
-#include "graze/model/model_file.hpp"
-#include "identify/dropped_ball.hpp"
+#include "identify/models.hpp"
 #include "identify/recorded_motion.hpp"
-#include "identify/wall_model.hpp"
 
 #include <gmock/gmock.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <string>
 
 namespace graze::testing {
 
@@ -21,34 +16,35 @@ namespace {
 constexpr double nine_digits = 1e-9;
 
 void expect_found(const RecordedMotion& motion, const FitSettings& settings = {}) {
-    const Fit fit = fit_model(System(motion.model), motion.task, settings);
-    EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
+    const Fit fit = motion.converged(settings);
     EXPECT_LE(motion.error(fit), nine_digits);
+}
+
+/// Replaces the readings by the squares of a displacement.
+void read_squares(RecordedMotion& motion) {
+    motion.task.outputs[0].value = pow(motion.task.outputs[0].value, 2);
+    for (double& value : motion.task.records[0].readings[0].values)
+        value *= value;
+    motion.task.records[0].start = motion.first;
 }
 
 } // namespace
 
 TEST(Fit, FindsTheParametersOfAnImpactOscillator) {
     RecordedMotion motion(load_model("impact-oscillator"), {"x", "v"}, 0, 0.05, 600);
-    for (const char* name : {"zeta", "omega", "amplitude", "sigma", "e"})
-        motion.forget(name, 1.1);
-    motion.forget_states();
+    motion.forget_all({"zeta", "omega", "amplitude", "sigma", "e"}, 1.1);
     expect_found(motion);
 }
 
 TEST(Fit, FindsTheParametersOfTheBallAndShaker) {
     RecordedMotion motion(load_model("ball-and-shaker"), {"q"}, 0.4, 0.005, 400);
-    for (const char* name : {"zeta", "omega_n", "e", "a", "f"})
-        motion.forget(name, 1.03);
-    motion.forget_states();
+    motion.forget_all({"zeta", "omega_n", "e", "a", "f"}, 1.03);
     expect_found(motion);
 }
 
 TEST(Fit, FindsTheParametersOfABouncingBall) {
     RecordedMotion motion(load_model("bouncing-ball"), {"x"}, 0, 0.002, 400);
-    for (const char* name : {"g", "e", "a", "f"})
-        motion.forget(name, 1.03);
-    motion.forget_states();
+    motion.forget_all({"g", "e", "a", "f"}, 1.03);
     expect_found(motion);
 }
 
@@ -63,9 +59,7 @@ TEST(Fit, FindsTheParametersOfADryFrictionOscillator) {
 TEST(FitSlow, FindsTheParametersOfTheTestbedThroughChaos) {
     Model model = load_model("electromagnetic-testbed");
     RecordedMotion motion(model, {"q", "v", "I"}, 4, 0.002, 1500);
-    for (const char* name : {"V0", "zeta", "e", "beta1", "R", "w0"})
-        motion.forget(name, 1.05);
-    motion.forget_states();
+    motion.forget_all({"V0", "zeta", "e", "beta1", "R", "w0"}, 1.05);
     expect_found(motion);
 }
 
@@ -85,11 +79,8 @@ TEST(Fit, FindsGainsAndOffsetsFromSeveralRecords) {
     motion.task.outputs[0].gain = 2.3e-6;
     motion.task.outputs[0].offset = 2e-7;
     motion.task.outputs[0].gain_unknown = motion.task.outputs[0].offset_unknown = true;
-    for (const char* name : {"zeta", "omega", "sigma", "e"})
-        motion.forget(name, 1.05);
-    motion.forget_states();
-    const Fit fit = fit_model(System(motion.model), motion.task);
-    EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
+    motion.forget_all({"zeta", "omega", "sigma", "e"}, 1.05);
+    const Fit fit = motion.converged();
     EXPECT_LE(motion.error(fit), nine_digits);
     ASSERT_EQ(fit.numbers.size(), 12U);
     EXPECT_EQ(fit.numbers[4].name, "gain of x");
@@ -100,23 +91,12 @@ TEST(Fit, FindsGainsAndOffsetsFromSeveralRecords) {
 
 /// x'' = -k/m x: only the ratio of k and m is determined.
 TEST(Fit, NamesUndeterminedCombinations) {
-    const Model model = parse_model(R"(
-name = "swing"
-[parameters]
-m = 2
-k = 8
-[states]
-x = { initial = 1 }
-v = { initial = 0 }
-[modes.swing]
-rates = { x = "v", v = "-k/m*x" }
-)",
-                                    "swing.toml");
-    RecordedMotion motion(model, {"x"}, 0, 0.1, 50);
+    RecordedMotion motion(smooth_model("{ m = 2, k = 8 }", "{ x = 1, v = 0 }", R"({ x = "v", v = "-k/m*x" })"), {"x"},
+                          0, 0.1, 50);
     motion.forget("m", 1.1);
     motion.forget("k", 1.05);
     motion.task.records[0].unknown_states = {0};
-    const Fit fit = fit_model(System(motion.model), motion.task);
+    const Fit fit = motion.fit();
     EXPECT_EQ(name_of(fit.ending), "undetermined");
     ASSERT_EQ(fit.free.size(), 1U);
     EXPECT_LT(fit.free[0].strength, 1e-9);
@@ -130,22 +110,12 @@ rates = { x = "v", v = "-k/m*x" }
 }
 
 TEST(Fit, CanBeInterruptedInTheMiddleOfAMotion) {
-    const Model model = parse_model(R"(
-name = "cooling"
-[parameters]
-tau = 10
-[states]
-T = { initial = 1 }
-[modes.m]
-rates = { T = "-T/tau" }
-)",
-                                    "cooling.toml");
-    RecordedMotion motion(model, {"T"}, 0, 0.1, 50);
+    RecordedMotion motion(smooth_model("{ tau = 10 }", "{ T = 1 }", R"({ T = "-T/tau" })"), {"T"}, 0, 0.1, 50);
     motion.forget("tau", 1e-8); // so stiff that the first motion alone would take minutes
     FitSettings settings;
     int asked = 0;
     settings.interrupted = [&] { return ++asked > 1000; };
-    const Fit fit = fit_model(System(motion.model), motion.task, settings);
+    const Fit fit = motion.fit(settings);
     EXPECT_EQ(name_of(fit.ending), "interrupted");
     EXPECT_EQ(asked, 1001) << "no motion begins any more";
     EXPECT_THAT(fit.detail,
@@ -159,23 +129,21 @@ TEST(Fit, NamesTheChannelThatDoesNotMatch) {
         for (double& value : motion.task.records[0].readings[1].values)
             value *= factor;
         motion.add_noise(0.005, 3);
-        for (const char* name : {"c", "k", "wall", "e"})
-            motion.forget(name, 1.02);
-        motion.forget_states();
+        motion.forget_all({"c", "k", "wall", "e"}, 1.02);
         FitSettings settings;
         int asked = 0;
         settings.interrupted = [&] {
             ++asked;
             return false;
         };
-        const Fit fit = fit_model(System(motion.model), motion.task, settings);
+        const Fit fit = motion.fit(settings);
         EXPECT_NE(name_of(fit.ending), "converged") << factor;
         EXPECT_THAT(fit.detail, ::testing::HasSubstr("does not match from time")) << factor;
         EXPECT_THAT(fit.detail, ::testing::HasSubstr("look at its sign, its unit")) << factor;
         // Interrupted early it says the same, as soon as all pieces have been evaluated.
         int until = asked / 2;
         settings.interrupted = [&] { return --until < 0; };
-        const Fit ended = fit_model(System(motion.model), motion.task, settings);
+        const Fit ended = motion.fit(settings);
         EXPECT_EQ(name_of(ended.ending), "interrupted");
         EXPECT_THAT(ended.detail, ::testing::HasSubstr("before it had converged"));
     }
@@ -189,11 +157,9 @@ TEST(Fit, UnitsMakeNoDifference) {
         model.set_parameter("k", 4 / (time * time));
         model.set_parameter("wall", 0.5 * length);
         RecordedMotion motion(model, {"x"}, 0.01 * time, 0.02 * time, 300);
-        for (const char* name : {"c", "k", "wall", "e"})
-            motion.forget(name, 1.1);
-        motion.forget_states();
+        motion.forget_all({"c", "k", "wall", "e"}, 1.1);
         motion.add_noise(1e-3, 7);
-        return std::pair(motion, fit_model(System(motion.model), motion.task));
+        return std::pair(motion, motion.fit());
     };
     const auto [motion, usual] = swing(1, 1);
     EXPECT_EQ(name_of(usual.ending), "converged") << usual.detail;
@@ -213,23 +179,11 @@ TEST(Fit, UnitsMakeNoDifference) {
 
 /// The period of a cyclic state depends on an unknown parameter.
 TEST(Fit, FindsAPeriod) {
-    const Model model = parse_model(R"(
-name = "clock"
-[parameters]
-w = 3
-c = 0.2
-[states]
-x = { initial = -0.3 }
-v = { initial = 0 }
-tau = { initial = 0.4, period = "2*pi/w" }
-[modes.swing]
-rates = { x = "v", v = "cos(w*tau) - 4*x - c*v", tau = 1 }
-)",
-                                    "clock.toml");
+    const Model model =
+        smooth_model("{ w = 3, c = 0.2 }", R"({ x = -0.3, v = 0, tau = { initial = 0.4, period = "2*pi/w" } })",
+                     R"({ x = "v", v = "cos(w*tau) - 4*x - c*v", tau = 1 })");
     RecordedMotion motion(model, {"x"}, 0.3, 0.1, 300);
-    for (const char* name : {"w", "c"})
-        motion.forget(name, 1.05);
-    motion.forget_states();
+    motion.forget_all({"w", "c"}, 1.05);
     expect_found(motion);
 }
 
@@ -239,13 +193,10 @@ TEST(Fit, ConvergesOnARecordWithRestAfterChatter) {
         RecordedMotion motion(dropped_ball(), {"x"}, 0, 0.01, 400);
         ASSERT_GT(motion.contacts, 10U);
         motion.forget("g", 0.97);
-        motion.forget("e", 0.95);
-        motion.forget_states();
+        motion.forget_all({"e"}, 0.95);
         motion.add_noise(0.02, seed);
-        const Fit fit = fit_model(System(motion.model), motion.task);
-        EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
-        for (std::size_t j = 0; j < 2; ++j) // by chance once in 3000 fits
-            EXPECT_LE(std::abs(fit.numbers[j].estimate.value - motion.truth(j)), 4 * fit.numbers[j].estimate.error);
+        const Fit fit = motion.converged();
+        motion.expect_within_errors(fit); // by chance once in 3000 fits
     }
 }
 
@@ -253,7 +204,7 @@ TEST(Fit, SaysThatTheModelDoesNotDefineWhatFollowsChatter) {
     RecordedMotion motion(dropped_ball(), {"x"}, 0, 0.02, 200);
     motion.model = dropped_ball("");
     motion.forget("e", 1.01);
-    const Fit fit = fit_model(System(motion.model), motion.task);
+    const Fit fit = motion.fit();
     EXPECT_EQ(name_of(fit.ending), "broken");
     EXPECT_THAT(fit.detail, ::testing::HasSubstr("give it `chatter = { jump = ..., mode = ... }` in the model"));
     EXPECT_THAT(fit.detail, ::testing::Not(::testing::HasSubstr("guesses")));
@@ -261,17 +212,7 @@ TEST(Fit, SaysThatTheModelDoesNotDefineWhatFollowsChatter) {
 
 /// An output that is always 0, and one whose gain is only known in product with its initial state.
 TEST(Fit, NamesUndeterminedGains) {
-    const Model model = parse_model(R"(
-name = "two"
-[parameters]
-k = 2
-[states]
-x = { initial = 1 }
-z = { initial = 0 }
-[modes.m]
-rates = { x = "-k*x", z = "-z" }
-)",
-                                    "two.toml");
+    const Model model = smooth_model("{ k = 2 }", "{ x = 1, z = 0 }", R"({ x = "-k*x", z = "-z" })");
     for (const bool noise : {false, true}) {
         RecordedMotion motion(model, {"x", "z"}, 0, 0.05, 60);
         motion.forget("k", 1.1);
@@ -279,7 +220,7 @@ rates = { x = "-k*x", z = "-z" }
         motion.task.records[0].unknown_states = {0};
         if (noise)
             motion.add_noise(0.01, 5);
-        const Fit fit = fit_model(System(motion.model), motion.task);
+        const Fit fit = motion.fit();
         EXPECT_EQ(name_of(fit.ending), "undetermined") << fit.detail;
         ASSERT_EQ(fit.free.size(), 2U);
         EXPECT_THAT(fit.free[0].text + fit.free[1].text, ::testing::HasSubstr("gain of z"));
@@ -293,7 +234,7 @@ TEST(Fit, NamesAReadingThatIsOutOfAllProportion) {
     motion.forget("g", 1.1);
     motion.task.records[0].readings[1].values[7] = -1e308;
     try {
-        fit_model(System(motion.model), motion.task);
+        motion.fit();
         FAIL() << "it was fitted";
     } catch (const InputError& error) {
         EXPECT_THAT(error.what(), ::testing::HasSubstr("the reading -1e+308 of 'v' at time 0.14 is out of"));
@@ -302,27 +243,12 @@ TEST(Fit, NamesAReadingThatIsOutOfAllProportion) {
 
 /// Equal readings, as from a stuck converter, do not show their noise.
 TEST(Fit, AConstantChannelHasAnIntervalAboveZero) {
-    const Model model = parse_model("name = \"still\"\n[parameters]\nc = 5\n[states]\nx = { initial = 1 }\n"
-                                    "[modes.m]\nrates = { x = 0 }\n",
-                                    "still.toml");
-    RecordedMotion motion(model, {"x"}, 0, 0.1, 30);
+    RecordedMotion motion(smooth_model("{ c = 5 }", "{ x = 1 }", "{ x = 0 }"), {"x"}, 0, 0.1, 30);
     motion.task.outputs[0].offset_unknown = true;
-    const Fit fit = fit_model(System(motion.model), motion.task);
+    const Fit fit = motion.fit();
     EXPECT_TRUE(fit.outputs[0].unchanging);
     EXPECT_GT(fit.numbers[0].estimate.half_width(), 0);
 }
-
-namespace {
-
-/// Replaces the readings by the squares of a displacement.
-void read_squares(RecordedMotion& motion) {
-    motion.task.outputs[0].value = pow(motion.task.outputs[0].value, 2);
-    for (double& value : motion.task.records[0].readings[0].values)
-        value *= value;
-    motion.task.records[0].start = motion.first;
-}
-
-} // namespace
 
 /// Squares of a displacement do not show the side: the mirror image is reported as alternative, found by the signs of
 /// all states, or by a symmetry of the model, through impacts.
@@ -330,17 +256,14 @@ TEST(Fit, ReportsMirrorImagesAsAlternatives) {
     RecordedMotion ball(dropped_ball(), {"v"}, 0, 0.01, 40);
     ball.forget("g", 1.02);
     ball.task.records[0].unknown_states = {1};
-    EXPECT_TRUE(fit_model(System(ball.model), ball.task).alternatives.empty());
+    EXPECT_TRUE(ball.fit().alternatives.empty());
 
-    RecordedMotion swing(parse_model("name = \"swing\"\n[parameters]\nk = 4\n[states]\nx = { initial = 1 }\n"
-                                     "v = { initial = 0.5 }\n[modes.m]\nrates = { x = \"v\", v = \"-k*x\" }\n",
-                                     "swing.toml"),
-                         {"x"}, 0, 0.05, 100);
+    RecordedMotion swing(smooth_model("{ k = 4 }", "{ x = 1, v = 0.5 }", R"({ x = "v", v = "-k*x" })"), {"x"}, 0, 0.05,
+                         100);
     read_squares(swing);
     swing.forget("k", 1.02);
     swing.forget_states();
-    const Fit fit = fit_model(System(swing.model), swing.task);
-    EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
+    const Fit fit = swing.converged();
     ASSERT_EQ(fit.alternatives.size(), 1U);
     EXPECT_EQ(fit.alternatives[0].text, "x(0) = -1, v(0) = -0.5");
     ASSERT_EQ(fit.alternatives[0].numbers.size(), 2U);
@@ -351,8 +274,7 @@ TEST(Fit, ReportsMirrorImagesAsAlternatives) {
     read_squares(stops);
     stops.forget("e", 1.02);
     stops.forget_states();
-    const Fit other = fit_model(System(stops.model), stops.task);
-    EXPECT_EQ(name_of(other.ending), "converged") << other.detail;
+    const Fit other = stops.converged();
     ASSERT_GE(other.alternatives.size(), 1U);
     for (const char* state : {"x(0) = ", "v(0) = ", "theta(0) = "})
         EXPECT_THAT(other.alternatives[0].text, ::testing::HasSubstr(state));
@@ -361,16 +283,11 @@ TEST(Fit, ReportsMirrorImagesAsAlternatives) {
 /// A fit that converges to a negative amplitude with a phase half a period later is moved to the sign of the guess.
 TEST(Fit, SignsAreThoseOfGuesses) {
     RecordedMotion motion(load_model("ball-and-shaker"), {"q"}, 0.621, 0.005, 400);
-    for (const char* name : {"zeta", "omega_n", "e", "a", "f"})
-        motion.forget(name, 1.05);
-    motion.forget_states();
+    motion.forget_all({"zeta", "omega_n", "e", "a", "f"}, 1.05);
     motion.add_noise(0.005, 17);
-    const Fit fit = fit_model(System(motion.model), motion.task);
-    EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
+    const Fit fit = motion.converged();
     EXPECT_TRUE(fit.alternatives.empty());
-    for (std::size_t j = 0; j < motion.task.parameters.size(); ++j)
-        EXPECT_LE(std::abs(fit.numbers[j].estimate.value - motion.truth(j)), 4 * fit.numbers[j].estimate.error)
-            << fit.numbers[j].name;
+    motion.expect_within_errors(fit);
 }
 
 } // namespace graze::testing

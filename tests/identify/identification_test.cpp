@@ -4,12 +4,9 @@
 #include "identify/noise.hpp"
 
 #include <cmath>
-#include <functional>
 #include <gmock/gmock.h>
 #include <numbers>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace graze::testing {
 
@@ -19,6 +16,14 @@ namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
+// A magnet: Appendix C of B. E. Wilcox's dissertation.
+constexpr double beta1 = 1.902e-5, beta2 = 1.631e-3, gap = 0.00479102312304, stiffness = 0.6462 * 95.94 * 95.94;
+
+/// The current at which a displacement is an equilibrium, Eq. (5.13).
+double current_at(double q) {
+    return (gap + beta2 - q) * std::sqrt(2 * stiffness * q / beta1);
+}
+
 struct NamedRecord {
     std::string name;
     RecordHeader header;
@@ -27,15 +32,8 @@ struct NamedRecord {
 
 /// @param functions of time, one for each channel
 NamedRecord record(const std::string& name, std::vector<Channel> channels, double rate, std::size_t count,
-                   const std::vector<std::function<double(double)>>& functions) {
-    NamedRecord result{name, {{"t", "s"}, std::move(channels)}, {}};
-    result.samples.clear(functions.size());
-    for (std::size_t i = 0; i < count; ++i) {
-        result.samples.times.push_back(static_cast<double>(i) / rate);
-        for (std::size_t c = 0; c < functions.size(); ++c)
-            result.samples.values[c].push_back(functions[c](result.samples.times.back()));
-    }
-    return result;
+                   const std::vector<Wave>& functions) {
+    return {name, {{"t", "s"}, std::move(channels)}, sampled(rate, count, functions)};
 }
 
 EachRecord each(std::vector<NamedRecord> records) {
@@ -53,6 +51,12 @@ Identification::Value value_of(const Identification& found, const std::string& n
             return value;
     ADD_FAILURE() << name << " is not found";
     return {};
+}
+
+void expect_value(const Identification& found, const std::string& name, double value, double tolerance,
+                  const std::string& unit) {
+    EXPECT_NEAR(value_of(found, name).estimate.value, value, tolerance) << name;
+    EXPECT_EQ(value_of(found, name).unit, unit) << name;
 }
 
 std::string message_of(const std::function<void()>& work) {
@@ -88,17 +92,24 @@ NamedRecord drops(const std::string& name, double restitution) {
                   }});
 }
 
+/// The current through a coil of this resistance and inductance, on a sinusoidal voltage.
+NamedRecord coil_record(double resistance, double inductance, double voltage, double frequency, std::size_t count,
+                        double sign = 1) {
+    const double w = turn * frequency, size = std::hypot(resistance, w * inductance),
+                 late = std::atan2(w * inductance, resistance);
+    return record("coil", {{"V", "V"}, {"I", "A"}}, 1000, count,
+                  {[=](double t) { return voltage * std::sin(w * t); },
+                   [=](double t) { return sign * voltage / size * std::sin(w * t - late); }});
+}
+
 } // namespace
 
 TEST(Identification, DecrementHasUnitsAndCurves) {
     const Identification found = identify_decrement(each({release(0.1), release(0.2)}), {});
     // Parabolas through the samples around peaks are accurate to some 1e-6 of a period.
-    EXPECT_NEAR(value_of(found, "natural_frequency").estimate.value, 95.94, 1e-5 * 95.94);
-    EXPECT_EQ(value_of(found, "natural_frequency").unit, "rad/s");
-    EXPECT_NEAR(value_of(found, "damping_ratio").estimate.value, 0.01626, 1e-5);
-    EXPECT_EQ(value_of(found, "damping_ratio").unit, "");
-    EXPECT_NEAR(value_of(found, "rest_position").estimate.value, 0.25, 1e-5);
-    EXPECT_EQ(value_of(found, "rest_position").unit, "m/s");
+    expect_value(found, "natural_frequency", 95.94, 1e-5 * 95.94, "rad/s");
+    expect_value(found, "damping_ratio", 0.01626, 1e-5, "");
+    expect_value(found, "rest_position", 0.25, 1e-5, "m/s");
     ASSERT_EQ(found.shown.size(), 2U) << "a curve for each release";
     for (const Identification::Shown& shown : found.shown) {
         ASSERT_EQ(shown.measured.x.size(), 10U);
@@ -112,8 +123,7 @@ TEST(Identification, DecrementHasUnitsAndCurves) {
 }
 
 TEST(Identification, RestitutionsOfSeveralRecordsAreCombined) {
-    IdentificationSettings settings;
-    settings.impacts.least_jump = 1;
+    const IdentificationSettings settings{.impacts = {.least_jump = 1}};
     const Identification one = identify_restitution(each({drops("a", 0.8)}), settings);
     // Between two samples the time of an impact is uncertain by half a millisecond: 9.81 m/s^2 makes 0.005 m/s of that,
     // before and after, of speeds of 1.8 m/s and more.
@@ -136,8 +146,7 @@ TEST(Identification, RestitutionsOfSeveralRecordsAreCombined) {
 /// An offset that is small relative to the velocities is detected by their errors; the scatter about the line would
 /// hide it, since the offset enlarges it.
 TEST(Identification, WarnsOfAnOffsetOfTheVelocity) {
-    IdentificationSettings settings;
-    settings.impacts.least_jump = 1;
+    const IdentificationSettings settings{.impacts = {.least_jump = 1}};
     NamedRecord ball = drops("a", 0.85);
     Noise noise(3);
     for (double& v : ball.samples.values[0])
@@ -153,14 +162,12 @@ TEST(Identification, WarnsOfAnOffsetOfTheVelocity) {
 /// reaches below one, by the velocities' own errors it does not. For an elastic impact, errors alone may give more than
 /// one.
 TEST(Identification, WarnsOfARestitutionAboveOne) {
-    IdentificationSettings settings;
-    settings.impacts.least_jump = 1;
+    const IdentificationSettings settings{.impacts = {.least_jump = 1}};
     for (const double offset : {0.0, 0.1}) {
         std::size_t told = 0;
         for (int seed = 1; seed <= 20; ++seed) {
             Noise noise(static_cast<unsigned>(seed));
-            NamedRecord one{"a", {{"t", "s"}, {{"v", "m/s"}}}, {}};
-            one.samples.clear(1);
+            NamedRecord one{"a", {{"t", "s"}, {{"v", "m/s"}}}, {{}, {{}}}};
             double first = 2.3;
             for (int k = 0; k < 5; ++k, first *= offset == 0 ? 1 : 0.93)
                 for (int i = 0; i < 100; ++i) {
@@ -183,8 +190,7 @@ TEST(Identification, WarnsOfARestitutionAboveOne) {
 TEST(Identification, WarnsOfARestitutionThatChangesFromImpactToImpact) {
     for (const double other : {0.8, 0.6}) {
         Noise noise(7);
-        NamedRecord one{"a", {{"t", "s"}, {{"v", "m/s"}}}, {}};
-        one.samples.clear(1);
+        NamedRecord one{"a", {{"t", "s"}, {{"v", "m/s"}}}, {{}, {{}}}};
         double first = 0.8, last = 0.9;
         for (int k = 0; k < 20; ++k) {
             for (int i = 0; i < 50; ++i) {
@@ -208,18 +214,12 @@ TEST(Identification, WarnsOfARestitutionThatChangesFromImpactToImpact) {
 
 /// Exact loads in m: the same loads in mm, or with another gap, are impossible for a magnet.
 TEST(Identification, CouplingIsLeftOutWhereNoMagnetHasIt) {
-    constexpr double beta1 = 1.902e-5, beta2 = 1.631e-3, gap = 0.00479102312304, stiffness = 0.6462 * 95.94 * 95.94;
     const auto loads = [&](double unit) {
-        return record("loads", {{"q", ""}, {"I", "A"}}, 1, 12,
-                      {[&](double t) { return unit * 1e-4 * (1 + t); },
-                       [&](double t) {
-                           const double q = 1e-4 * (1 + t);
-                           return (gap + beta2 - q) * std::sqrt(2 * stiffness * q / beta1);
-                       }});
+        return record(
+            "loads", {{"q", ""}, {"I", "A"}}, 1, 12,
+            {[&](double t) { return unit * 1e-4 * (1 + t); }, [](double t) { return current_at(1e-4 * (1 + t)); }});
     };
-    IdentificationSettings settings;
-    settings.gap = gap;
-    settings.stiffness = stiffness;
+    IdentificationSettings settings{.gap = gap, .stiffness = stiffness};
     EXPECT_THAT(message_of([&] { identify_coupling(each({loads(1e3)}), settings); }),
                 HasSubstr("a displacement of 0.1 is larger than the gap at rest, 0.004791"));
     settings.gap = 0.05; // beta2 would have to be gap + beta2 less 50 mm
@@ -231,9 +231,6 @@ TEST(Identification, CouplingIsLeftOutWhereNoMagnetHasIt) {
 }
 
 TEST(Identification, CouplingTakesRowsOrRecordsAsEquilibria) {
-    // Eq. (5.13) with the constants of Appendix C of the dissertation.
-    constexpr double beta1 = 1.902e-5, beta2 = 1.631e-3, gap = 0.00479102312304, stiffness = 0.6462 * 95.94 * 95.94;
-    const auto current_at = [&](double q) { return (gap + beta2 - q) * std::sqrt(2 * stiffness * q / beta1); };
     IdentificationSettings settings;
     settings.asked_as = "--";
     EXPECT_THAT(message_of([&] { identify_coupling(each({}), settings); }), HasSubstr("give --gap and --stiffness"));
@@ -250,10 +247,8 @@ TEST(Identification, CouplingTakesRowsOrRecordsAsEquilibria) {
     for (const bool by_record : {false, true}) {
         settings.one_load_a_record = by_record;
         const Identification found = identify_coupling(each(by_record ? records : std::vector{rows}), settings);
-        EXPECT_NEAR(value_of(found, "beta1").estimate.value, beta1, 1e-9 * beta1);
-        EXPECT_EQ(value_of(found, "beta1").unit, "H m");
-        EXPECT_NEAR(value_of(found, "beta2").estimate.value, beta2, 1e-9 * beta2);
-        EXPECT_EQ(value_of(found, "beta2").unit, "m");
+        expect_value(found, "beta1", beta1, 1e-9 * beta1, "H m");
+        expect_value(found, "beta2", beta2, 1e-9 * beta2, "m");
         ASSERT_EQ(found.shown.size(), 1U);
         EXPECT_EQ(found.shown[0].measured.x.size(), 12U);
         for (std::size_t i = 0; i < found.shown[0].fitted.x.size(); ++i)
@@ -266,28 +261,17 @@ TEST(Identification, CouplingTakesRowsOrRecordsAsEquilibria) {
 
 TEST(Identification, ImpedanceWarnsOfSigns) {
     constexpr double resistance = 1.39, inductance = 0.0145, frequency = 6.1;
-    const double w = turn * frequency, size = std::hypot(resistance, w * inductance);
-    const double late = std::atan2(w * inductance, resistance);
-    const auto coil = [&](double sign) {
-        return record("coil", {{"V", "V"}, {"I", "A"}}, 1000, 4000,
-                      {[=](double t) { return 4 * std::sin(w * t); },
-                       [=](double t) { return sign * 4 / size * std::sin(w * t - late); }});
-    };
+    const auto coil = [&](double sign) { return coil_record(resistance, inductance, 4, frequency, 4000, sign); };
     const Identification found = identify_impedance(each({coil(1)}), {});
-    EXPECT_NEAR(value_of(found, "resistance").estimate.value, resistance, 1e-9);
-    EXPECT_EQ(value_of(found, "resistance").unit, "ohm");
-    EXPECT_NEAR(value_of(found, "inductance").estimate.value, inductance, 1e-9);
-    EXPECT_EQ(value_of(found, "inductance").unit, "H");
-    EXPECT_NEAR(value_of(found, "frequency").estimate.value, frequency, 1e-9);
-    EXPECT_EQ(value_of(found, "frequency").unit, "Hz");
+    expect_value(found, "resistance", resistance, 1e-9, "ohm");
+    expect_value(found, "inductance", inductance, 1e-9, "H");
+    expect_value(found, "frequency", frequency, 1e-9, "Hz");
     EXPECT_TRUE(found.warnings.empty());
     EXPECT_LE(found.shown.front().measured.x.back(), 3 / frequency) << "the first periods tell enough";
     const Identification turned = identify_impedance(each({coil(-1)}), {});
     ASSERT_EQ(turned.warnings.size(), 2U) << "resistance and inductance are both negative";
     EXPECT_THAT(turned.warnings[0], HasSubstr("the resistance comes out below zero"));
-    IdentificationSettings half;
-    half.asked_as = "--";
-    half.beta1 = Estimate{1.9e-5, 0, 0};
+    const IdentificationSettings half{.beta1 = Estimate{1.9e-5, 0, 0}, .asked_as = "--"};
     EXPECT_THAT(message_of([&] { identify_impedance(each({coil(1)}), half); }),
                 HasSubstr("give --beta1, --beta2 and --gap, or none"));
 }
@@ -307,30 +291,21 @@ NamedRecord in_units(NamedRecord one, const std::string& time, double times, std
 /// A record in mV, mA or ms gives the same as the one in V, A and s; results are in the units of the first record.
 TEST(Identification, RecordsInOtherUnitsAreConverted) {
     constexpr double resistance = 1.4, inductance = 0.0105, frequency = 4;
-    const double w = turn * frequency, size = std::hypot(resistance, w * inductance);
-    const double late = std::atan2(w * inductance, resistance);
-    const NamedRecord coil = record(
-        "coil", {{"V", "V"}, {"I", "A"}}, 1000, 2000,
-        {[=](double t) { return 5 * std::sin(w * t); }, [=](double t) { return 5 / size * std::sin(w * t - late); }});
+    const NamedRecord coil = coil_record(resistance, inductance, 5, frequency, 2000);
     for (const NamedRecord& other :
          {in_units(coil, "s", 1, 0, "mV", 1e3), in_units(coil, "s", 1, 1, "mA", 1e3),
           in_units(coil, "ms", 1e3, 0, "V", 1), in_units(coil, "min", 1.0 / 60, 1, "A", 1)}) {
         const Identification found = identify_impedance(each({coil, other}), {});
-        EXPECT_NEAR(value_of(found, "resistance").estimate.value, resistance, 1e-9);
-        EXPECT_EQ(value_of(found, "resistance").unit, "ohm");
-        EXPECT_NEAR(value_of(found, "inductance").estimate.value, inductance, 1e-9);
-        EXPECT_EQ(value_of(found, "inductance").unit, "H");
+        expect_value(found, "resistance", resistance, 1e-9, "ohm");
+        expect_value(found, "inductance", inductance, 1e-9, "H");
     }
     const Identification turned = identify_impedance(each({in_units(coil, "s", 1, 0, "mV", 1e3), coil}), {});
-    EXPECT_NEAR(value_of(turned, "resistance").estimate.value, 1e3 * resistance, 1e-6);
-    EXPECT_EQ(value_of(turned, "resistance").unit, "mV/A");
+    expect_value(turned, "resistance", 1e3 * resistance, 1e-6, "mV/A");
 
     const NamedRecord first = release(0.1);
     const Identification decay = identify_decrement(each({first, in_units(first, "ms", 1e3, 0, "mm/s", 1e3)}), {});
-    EXPECT_NEAR(value_of(decay, "natural_frequency").estimate.value, 95.94, 1e-6);
-    EXPECT_EQ(value_of(decay, "natural_frequency").unit, "rad/s");
-    EXPECT_NEAR(value_of(decay, "rest_position").estimate.value, 0.25, 1e-6);
-    EXPECT_EQ(value_of(decay, "rest_position").unit, "m/s");
+    expect_value(decay, "natural_frequency", 95.94, 1e-6, "rad/s");
+    expect_value(decay, "rest_position", 0.25, 1e-6, "m/s");
     EXPECT_THAT(decay.warnings, ::testing::IsEmpty());
     for (const double x : decay.shown[1].measured.x)
         EXPECT_LT(x, 1) << "seconds";
@@ -359,9 +334,7 @@ TEST(Identification, RefusesRecordsWithoutUsableNumbers) {
     for (double& value : huge.samples.values[0])
         value *= 1e150;
     EXPECT_THAT(message_of([&] { identify_decrement(each({huge}), {}); }), HasSubstr("(scale v="));
-    IdentificationSettings other;
-    other.channel = "w";
-    other.asked_as = "--";
+    const IdentificationSettings other{.channel = "w", .asked_as = "--"};
     EXPECT_THAT(message_of([&] { identify_decrement(each({release(0.1)}), other); }), HasSubstr("--channel"));
 }
 

@@ -15,11 +15,9 @@ std::vector<RecordedImpact> bounces(Noise& noise, double offset, double by_speed
     double speed = 1;
     for (int k = 0; k < 8; ++k) {
         const double e = 0.85 - by_speed * (speed - 0.6), after = -e * speed;
-        RecordedImpact& one = impacts.emplace_back();
-        one.before = speed + offset + deviation * noise.normal();
-        one.after = after + offset + 1.5 * deviation * noise.normal();
-        one.before_error = deviation;
-        one.after_error = 1.5 * deviation;
+        const double before = speed + offset + deviation * noise.normal();
+        impacts.push_back(
+            {0, 0, before, deviation, after + offset + 1.5 * deviation * noise.normal(), 1.5 * deviation});
         speed = -after;
     }
     return impacts;

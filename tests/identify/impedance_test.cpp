@@ -71,9 +71,9 @@ TEST(Impedance, IntervalsCoverTheTruth) {
         Noise noise(seed);
         const Recorded record = recorded(noise, 0.02, 0.05);
         const Impedance found = impedance(record.times, record.voltage, record.current);
-        resistances += std::abs(found.resistance.value - resistance) < found.resistance.half_width() ? 1 : 0;
+        resistances += covers(found.resistance, resistance) ? 1 : 0;
         const Estimate leak = leakage_inductance(found.inductance, {beta1, 0, 0}, {beta2, 0, 0}, gap, q);
-        leakages += std::abs(leak.value - leakage) < leak.half_width() ? 1 : 0;
+        leakages += covers(leak, leakage) ? 1 : 0;
     }
     expect_coverage(resistances, "resistance");
     expect_coverage(leakages, "leakage inductance");
@@ -87,7 +87,7 @@ TEST(Impedance, IsFoundInNoiseThatCrossesTheMeanOften) {
         const Recorded record = recorded(noise, 0.5 * size, 0.5);
         const Impedance found = impedance(record.times, record.voltage, record.current);
         EXPECT_NEAR(found.frequency, omega, 0.02 * omega) << seed;
-        covered += std::abs(found.resistance.value - resistance) < found.resistance.half_width() ? 1 : 0;
+        covered += covers(found.resistance, resistance) ? 1 : 0;
     }
     expect_coverage(covered, "resistance");
 }

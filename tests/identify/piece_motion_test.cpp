@@ -7,8 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <vector>
 
 namespace graze::testing {
 
@@ -40,13 +38,7 @@ void expect_differences(const Case& one) {
     const std::vector<double> parameters = model.parameter_values(), usual = model.initial_state();
     std::vector<double> start = usual;
     start[1] += one.velocity;
-    MotionPiece piece;
-    piece.mode = model.initial_mode;
-    piece.begin = one.begin;
-    piece.end = one.end;
-    piece.times = times;
-    piece.seeds = seeds;
-    piece.reach = 1.5 * (times[1] - times[0]);
+    MotionPiece piece{{}, seeds, model.initial_mode, one.begin, one.end, times, 1.5 * (times[1] - times[0])};
     const auto follow = [&](const std::vector<double>& values, const std::vector<double>& state) {
         motion.set_parameters(values);
         piece.state = state;
@@ -114,13 +106,8 @@ TEST(PieceMotion, DerivativesEqualFiniteDifferences) {
 TEST(PieceMotion, DerivativesAreRightForPeriodsThatDependOnParameters) {
     const Model model = parse_model(R"(
 name = "clock"
-[parameters]
-w = 3
-wall = 0.9
-[states]
-x = { initial = -0.3 }
-v = { initial = 0 }
-tau = { initial = 0.4, period = "2*pi/w" }
+parameters = { w = 3, wall = 0.9 }
+states = { x = -0.3, v = 0, tau = { initial = 0.4, period = "2*pi/w" } }
 [modes.swing]
 rates = { x = "v", v = "cos(w*tau) - 4*x - 0.1*v", tau = 1 }
 watch = ["hit"]

@@ -7,6 +7,7 @@
 #include "identify/noise.hpp"
 
 #include <cstddef>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -74,15 +75,19 @@ struct RecordedMotion {
     }
     /// Makes a parameter unknown, with its value times a factor as guess.
     void forget(const std::string& parameter, double factor) {
-        UnknownParameter unknown;
-        unknown.parameter = model.independent_parameter(parameter);
-        unknown.guess = factor * model.parameter_values()[unknown.parameter.place()];
-        task.parameters.push_back(unknown);
+        const ParameterId unknown = model.independent_parameter(parameter);
+        task.parameters.push_back({unknown, factor * model.parameter_values()[unknown.place()]});
     }
     void forget_states() {
         for (FitRecord& record : task.records)
             for (std::size_t i = 0; i < model.states.size(); ++i)
                 record.unknown_states.push_back(i);
+    }
+    /// Makes these parameters and all initial states unknown.
+    void forget_all(std::initializer_list<const char*> parameters, double factor) {
+        for (const char* name : parameters)
+            forget(name, factor);
+        forget_states();
     }
     void add_noise(double deviation_by_range, std::uint64_t seed) {
         Noise noise(seed);
@@ -93,6 +98,19 @@ struct RecordedMotion {
                 for (double& value : readings.values)
                     value += deviation * noise.normal();
             }
+    }
+    Fit fit(const FitSettings& settings = {}) const { return fit_model(System(model), task, settings); }
+    /// The fit, which is expected to converge.
+    Fit converged(const FitSettings& settings = {}) const {
+        Fit result = fit(settings);
+        EXPECT_EQ(name_of(result.ending), "converged") << result.detail;
+        return result;
+    }
+    /// Expects each parameter within four standard errors of the truth.
+    void expect_within_errors(const Fit& fit) const {
+        for (std::size_t j = 0; j < task.parameters.size(); ++j)
+            EXPECT_LE(std::abs(fit.numbers[j].estimate.value - truth(j)), 4 * fit.numbers[j].estimate.error)
+                << fit.numbers[j].name;
     }
     double truth(std::size_t parameter) const {
         return model.parameter_values()[task.parameters[parameter].parameter.place()];

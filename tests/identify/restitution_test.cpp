@@ -41,7 +41,7 @@ TEST(Restitution, IntervalsCoverTheTruth) {
                 impacts.push_back({v + 0.002 * ratio * noise.normal(), -0.866 * v + 0.002 * noise.normal(), ratio, 1});
             }
             const Restitution found = restitution(impacts);
-            covered += std::abs(found.coefficient.value - 0.866) < found.coefficient.half_width() ? 1 : 0;
+            covered += covers(found.coefficient, 0.866) ? 1 : 0;
         }
         expect_coverage(covered, "restitution");
     }

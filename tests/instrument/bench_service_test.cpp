@@ -1,5 +1,6 @@
 #include "instrument/bench_service.hpp"
 
+#include "base/temporary_folder.hpp"
 #include "bench/testbed.hpp"
 
 #include <arpa/inet.h>
@@ -7,8 +8,6 @@
 #include <atomic>
 #include <chrono>
 #include <fcntl.h>
-#include <filesystem>
-#include <fstream>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <poll.h>
@@ -19,16 +18,10 @@
 namespace graze {
 namespace {
 
-BenchSettings testbed() {
-    return testing::testbed({"I"});
-}
-
 /// A bench service in a thread of its own, with clients of its connections.
 class Served {
 public:
-    explicit Served(ServiceSettings settings = {})
-        : folder_(std::filesystem::temp_directory_path() / ("graze-bench-" + std::to_string(getpid()))) {
-        std::filesystem::create_directory(folder_);
+    explicit Served(ServiceSettings settings = {}) {
         settings.port = port();
         settings.on_demand = true;
         service_.emplace(bench_, settings);
@@ -43,9 +36,8 @@ public:
         close(connection);
         service_.reset();
         EXPECT_FALSE(std::filesystem::is_symlink(port()));
-        std::filesystem::remove_all(folder_);
     }
-    std::string port() const { return (folder_ / "generator").string(); }
+    std::string port() const { return folder_ / "generator"; }
     /// Whether a connection to an address is accepted.
     bool is_reached(in_addr_t where, int file) const {
         sockaddr_in address{};
@@ -79,8 +71,8 @@ public:
     int serial = -1, connection = -1;
 
 private:
-    std::filesystem::path folder_;
-    ScpiBench bench_{testbed()};
+    testing::TemporaryFolder folder_;
+    ScpiBench bench_{testing::testbed({"I"})};
     std::optional<BenchService> service_;
     std::atomic<bool> stop_{false};
     std::thread thread_;
@@ -123,11 +115,7 @@ TEST(BenchService, SurvivesAnyInput) {
 }
 
 TEST(BenchService, BreaksOnRequest) {
-    ServiceSettings settings;
-    settings.lines = 3;
-    settings.broken = 0.05;
-    settings.rows = 5;
-    Served served(settings);
+    Served served({.lines = 3, .broken = 0.05, .rows = 5});
     Served::say(served.serial, "*IDN?\n*IDN?\n*IDN?\n*IDN?\n");
     Served::heard(served.serial, "never");
     for (int i = 0; i < 100 && !std::filesystem::is_symlink(served.port()); ++i)
@@ -149,22 +137,15 @@ TEST(BenchService, IsReachedFromThisMachineAlone) {
 }
 
 TEST(BenchService, ReplacesOnlyStaleLinks) {
-    const std::filesystem::path file =
-        std::filesystem::temp_directory_path() / ("graze-taken-" + std::to_string(getpid()));
-    std::ofstream(file) << "mine";
-    ScpiBench bench(testbed());
-    ServiceSettings settings;
-    settings.port = file.string();
-    EXPECT_THROW(BenchService service(bench, settings), InputError);
-    settings.port = "/nowhere/at/all";
-    EXPECT_THROW(BenchService service(bench, settings), InputError);
-    settings.port = (file.string() + "-free");
-    settings.speed = 0;
-    EXPECT_THROW(BenchService service(bench, settings), InputError);
+    const testing::TemporaryFolder folder;
+    const std::string file = folder.write("taken", "mine");
+    ScpiBench bench(testing::testbed({"I"}));
+    for (const ServiceSettings& wrong :
+         {ServiceSettings{.port = file}, {.port = "/nowhere/at/all"}, {.port = folder / "free", .speed = 0}})
+        EXPECT_THROW(BenchService service(bench, wrong), InputError);
     std::filesystem::remove(file);
     std::filesystem::create_symlink("/dev/pts/123456", file); // left by a process that was killed
-    settings = {};
-    settings.port = file.string();
+    const ServiceSettings settings{.port = file};
     {
         const BenchService service(bench, settings);
         EXPECT_THROW(BenchService another(bench, settings), InputError) << "it is in use";

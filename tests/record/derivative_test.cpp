@@ -2,7 +2,6 @@
 
 #include "graze/base/input_error.hpp"
 #include "record/recorded_model.hpp"
-#include "record/waves.hpp"
 
 #include <cmath>
 #include <functional>
@@ -13,8 +12,30 @@
 namespace graze::testing {
 
 namespace {
+
 constexpr double turn = 2 * std::numbers::pi;
-}
+
+/// Errors of a record's second channel, a derivative, beside those that its third one states.
+struct Errors {
+    double squares = 0, stated = 0, ratios = 0, within = 0, count = 0; ///< within: those below twice the stated one
+
+    void add(const Samples& rows, const Wave& truth) {
+        for (std::size_t i = 0; i < rows.rows(); ++i, ++count) {
+            const double off = rows.values[1][i] - truth(rows.times[i]), error = rows.values[2][i];
+            squares += off * off;
+            stated += error * error;
+            ratios += std::pow(off / error, 2);
+            within += std::abs(off) < 2 * error ? 1 : 0;
+        }
+    }
+    void expect_stated(double tolerance) const {
+        EXPECT_NEAR(std::sqrt(squares / stated), 1, tolerance);
+        // 0.95 for normal errors; the truncation error is systematic.
+        EXPECT_GT(within / count, 0.85);
+    }
+};
+
+} // namespace
 
 TEST(Derivative, IsExactForPolynomialsOfFourthDegree) {
     const auto p = [](double t) { return 1e3 + t * (2 + t * (-3 + t * (0.5 - 0.25 * t))); };
@@ -35,6 +56,7 @@ TEST(Derivative, IsExactForPolynomialsOfFourthDegree) {
 TEST(Derivative, ErrorsHaveTheStatedSize) {
     const double f = 6.1;
     for (const double sigma : {1e-6, 1e-3, 0.05}) {
+        SCOPED_TRACE(sigma);
         Noise noise(11);
         StoredSamples source(named({"q"}), sampled(1000, 20'000, {[&](double t) {
                                                        return std::sin(turn * f * t) +
@@ -43,21 +65,16 @@ TEST(Derivative, ErrorsHaveTheStatedSize) {
                                                    }}));
         WithDerivative derived(borrowed(source), {0, 0, "v"});
         const Samples rows = read_all(derived, 100'000);
-        double squares = 0, said = 0, within = 0, plain = 0;
-        for (std::size_t i = 0; i < rows.rows(); ++i) {
-            const double t = rows.times[i];
-            const double v = turn * f * (std::cos(turn * f * t) + 0.9 * std::cos(3 * turn * f * t + 1));
-            squares += std::pow(rows.values[1][i] - v, 2);
-            if (i > 0 && i + 1 < rows.rows())
-                plain += std::pow((rows.values[0][i + 1] - rows.values[0][i - 1]) * 500 - v, 2);
-            said += std::pow(rows.values[2][i], 2);
-            within += std::abs(rows.values[1][i] - v) < 2 * rows.values[2][i] ? 1 : 0;
-        }
-        const auto count = static_cast<double>(rows.rows());
-        EXPECT_NEAR(std::sqrt(squares / said), 1, 0.3) << sigma << ", half width " << derived.half_width();
-        // 0.95 for normal errors; the truncation error is systematic.
-        EXPECT_GT(within / count, 0.85) << sigma;
-        EXPECT_LT(std::sqrt(squares), 0.25 * std::sqrt(plain)) << "differences of neighbours, " << sigma;
+        const Wave v = [&](double t) {
+            return turn * f * (std::cos(turn * f * t) + 0.9 * std::cos(3 * turn * f * t + 1));
+        };
+        Errors errors;
+        errors.add(rows, v);
+        errors.expect_stated(0.3);
+        double plain = 0;
+        for (std::size_t i = 1; i + 1 < rows.rows(); ++i)
+            plain += std::pow((rows.values[0][i + 1] - rows.values[0][i - 1]) * 500 - v(rows.times[i]), 2);
+        EXPECT_LT(std::sqrt(errors.squares), 0.25 * std::sqrt(plain)) << "differences of neighbours";
     }
 }
 
@@ -67,7 +84,7 @@ TEST(Derivative, ErrorsHaveTheStatedSize) {
 TEST(Derivative, StatedErrorsCoverTheTruthOfManyRecords) {
     for (const double f : {6.1, 40.0})
         for (const double sigma : {1e-4, 0.01, 0.1}) {
-            double ratio = 0, within = 0, count = 0;
+            Errors errors;
             for (std::uint64_t seed = 1; seed <= 20; ++seed) {
                 Noise noise(seed);
                 const double phase = turn * noise.uniform();
@@ -77,18 +94,13 @@ TEST(Derivative, StatedErrorsCoverTheTruthOfManyRecords) {
                 };
                 StoredSamples source(named({"q"}), sampled(1000, 2000, {q}));
                 WithDerivative derived(borrowed(source), {0, 0, "v"});
-                const Samples rows = read_all(derived, 100'000);
-                for (std::size_t i = 0; i < rows.rows(); ++i, ++count) {
-                    const double t = rows.times[i];
-                    const double v = turn * f * (std::cos(turn * f * t + phase) + 0.9 * std::cos(3 * turn * f * t + 1));
-                    const double off = (rows.values[1][i] - v) / rows.values[2][i];
-                    ratio += off * off;
-                    within += std::abs(off) < 2 ? 1 : 0;
-                }
+                errors.add(read_all(derived, 100'000), [&](double t) {
+                    return turn * f * (std::cos(turn * f * t + phase) + 0.9 * std::cos(3 * turn * f * t + 1));
+                });
             }
-            EXPECT_GT(std::sqrt(ratio / count), 0.85) << f << ", " << sigma;
-            EXPECT_LT(std::sqrt(ratio / count), 1.1) << f << ", " << sigma;
-            EXPECT_GT(within / count, 0.93) << f << ", " << sigma;
+            EXPECT_GT(std::sqrt(errors.ratios / errors.count), 0.85) << f << ", " << sigma;
+            EXPECT_LT(std::sqrt(errors.ratios / errors.count), 1.1) << f << ", " << sigma;
+            EXPECT_GT(errors.within / errors.count, 0.93) << f << ", " << sigma;
         }
 }
 
@@ -103,6 +115,7 @@ TEST(Derivative, UsesTheTimesOfAnUnevenClock) {
         [](std::size_t i) { return 1e-3 * (1 + 0.004 * static_cast<double>(i) / count); },
         [](std::size_t i) { return 1e-3 * (1 + 0.1 * std::sin(static_cast<double>(i * i))); }};
     for (std::size_t c = 0; c < clocks.size(); ++c) {
+        SCOPED_TRACE(c);
         Noise noise(5);
         Samples samples;
         samples.clear(1);
@@ -112,16 +125,9 @@ TEST(Derivative, UsesTheTimesOfAnUnevenClock) {
         }
         StoredSamples source(named({"q"}), samples);
         WithDerivative derived(borrowed(source), {0, 0, "v"});
-        const Samples rows = read_all(derived, 100'000);
-        double squares = 0, said = 0, within = 0;
-        for (std::size_t i = 0; i < rows.rows(); ++i) {
-            const double off = rows.values[1][i] - w * std::cos(w * rows.times[i]);
-            squares += off * off;
-            said += std::pow(rows.values[2][i], 2);
-            within += std::abs(off) < 2 * rows.values[2][i] ? 1 : 0;
-        }
-        EXPECT_NEAR(std::sqrt(squares / said), 1, 0.4) << "clock " << c;
-        EXPECT_GT(within / static_cast<double>(rows.rows()), 0.85) << "clock " << c;
+        Errors errors;
+        errors.add(read_all(derived, 100'000), [](double t) { return w * std::cos(w * t); });
+        errors.expect_stated(0.4);
     }
 }
 

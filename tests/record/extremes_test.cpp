@@ -4,7 +4,6 @@
 #include "graze/record/harmonic.hpp"
 #include "graze/record/interpolate.hpp"
 #include "record/recorded_model.hpp"
-#include "record/waves.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

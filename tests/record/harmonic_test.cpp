@@ -1,7 +1,6 @@
 #include "graze/record/harmonic.hpp"
 
 #include "graze/base/input_error.hpp"
-#include "record/recorded_model.hpp"
 #include "record/waves.hpp"
 
 #include <array>

@@ -3,9 +3,9 @@
 #include "base/temporary_folder.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/record/record_file.hpp"
+#include "record/hdf5_handle.hpp"
 
 #include <gmock/gmock.h>
-#include <hdf5.h>
 #include <sys/stat.h>
 
 #include <functional>
@@ -57,17 +57,9 @@ void add_time(hid_t file, hsize_t rows = 3) {
 }
 
 /// Creation properties of a dataset.
-class Layout {
-public:
-    Layout() : id_(H5Pcreate(H5P_DATASET_CREATE)) {}
-    ~Layout() { H5Pclose(id_); }
-    Layout(const Layout&) = delete;
-    Layout& operator=(const Layout&) = delete;
-    hid_t id() const { return id_; }
-
-private:
-    hid_t id_;
-};
+Hdf5Handle creation() {
+    return {H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "", "there are no properties", ""};
+}
 
 } // namespace
 
@@ -89,7 +81,7 @@ TEST(HostileRecord, DataInOtherFilesAreNotRead) {
     const TemporaryFolder folder;
     const std::string secret = folder.write("secret", std::string(24, 'x'));
     make_file(folder / "external.h5", [&](hid_t file) {
-        const Layout elsewhere;
+        const Hdf5Handle elsewhere = creation();
         H5Pset_external(elsewhere.id(), secret.c_str(), 0, 24);
         add_time(file);
         add_set(file, "x", 3, elsewhere.id());
@@ -97,7 +89,7 @@ TEST(HostileRecord, DataInOtherFilesAreNotRead) {
     EXPECT_THAT(refusal_of(folder / "external.h5"), HasSubstr("it is kept in another file"));
     make_file(folder / "other.h5", [](hid_t file) { add_set(file, "secret", 3); });
     make_file(folder / "virtual.h5", [&](hid_t file) {
-        const Layout elsewhere;
+        const Hdf5Handle elsewhere = creation();
         const hsize_t rows = 3;
         const hid_t space = H5Screate_simple(1, &rows, nullptr);
         H5Pset_virtual(elsewhere.id(), space, (folder / "other.h5").c_str(), "/secret", space);
@@ -122,7 +114,7 @@ TEST(HostileRecord, PluginFiltersAreNotLoaded) {
         [](unsigned, std::size_t, const unsigned*, std::size_t size, std::size_t*, void**) { return size; }};
     ASSERT_GE(H5Zregister(&foreign), 0);
     make_file(folder / "r.h5", [](hid_t file) {
-        const Layout filtered;
+        const Hdf5Handle filtered = creation();
         const hsize_t chunk = 3;
         H5Pset_chunk(filtered.id(), 1, &chunk);
         H5Pset_filter(filtered.id(), 333, 0, 0, nullptr);
@@ -141,7 +133,7 @@ TEST(HostileRecord, SizesOfChunksAndGroupsAreLimited) {
     const TemporaryFolder folder;
     const auto with_chunk = [&](hsize_t chunk) {
         make_file(folder / "chunk.h5", [chunk](hid_t file) {
-            const Layout chunked;
+            const Hdf5Handle chunked = creation();
             H5Pset_chunk(chunked.id(), 1, &chunk);
             H5Pset_deflate(chunked.id(), 1);
             add_time(file);
@@ -199,9 +191,7 @@ TEST(HostileRecord, LengthsOfLinesAndNumbersOfColumnsAreLimited) {
 
 TEST(HostileRecord, TextHasNoGroups) {
     const TemporaryFolder folder;
-    RecordLayout layout;
-    layout.group = "/g";
-    EXPECT_THROW(open_record(folder.write("r.csv", "t,x\n0,1\n"), layout), InputError);
+    EXPECT_THROW(open_record(folder.write("r.csv", "t,x\n0,1\n"), {.group = "/g"}), InputError);
 }
 
 TEST(HostileRecord, PipesAndDevicesAreRefused) {

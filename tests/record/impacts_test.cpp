@@ -2,7 +2,6 @@
 
 #include "graze/base/input_error.hpp"
 #include "record/recorded_model.hpp"
-#include "record/waves.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -50,10 +49,7 @@ TEST(Impacts, OfABouncingBallAreExact) {
         return value;
     };
     StoredSamples source(named({"y", "v"}), sampled(1000, 2000, {height, velocity}), 300);
-    ImpactSettings settings;
-    settings.velocity = 1;
-    settings.displacement = 0;
-    const std::vector<RecordedImpact> impacts = find_impacts(source, settings);
+    const std::vector<RecordedImpact> impacts = find_impacts(source, {{}, 1, 0});
     ASSERT_EQ(impacts.size(), 3U); // the record ends before the fourth
     for (std::size_t k = 0; k < impacts.size(); ++k) {
         EXPECT_NEAR(impacts[k].time, times[k], 1e-11);
@@ -69,9 +65,7 @@ TEST(Impacts, OfTheTestbedAreFoundInNoise) {
         recorded.add_noise("v", sigma, noise);
         recorded.add_noise("q", 1e-6, noise);
         StoredSamples source(recorded.header, recorded.samples);
-        ImpactSettings settings;
-        settings.velocity = recorded.header.channel("v", "test");
-        settings.displacement = recorded.header.channel("q", "test");
+        const ImpactSettings settings = impact_settings(recorded.header, "v", "q", {});
         const auto truth = known(recorded, "v", 0.02, 8 * sigma);
         ASSERT_GT(truth.size(), 40U);
         const std::vector<RecordedImpact> impacts = find_impacts(source, settings);
@@ -105,9 +99,7 @@ TEST(Impacts, OfAShakerGrowAsPublished) {
     Noise noise(1);
     recorded.add_noise("v", 0.05, noise);
     StoredSamples source(recorded.header, recorded.samples);
-    ImpactSettings settings;
-    settings.velocity = recorded.header.channel("v", "test");
-    settings.window = 32;
+    const ImpactSettings settings = impact_settings(recorded.header, "v", "", {.window = 32});
     const std::vector<RecordedImpact> impacts = find_impacts(source, settings);
     ASSERT_GE(impacts.size(), 3U);
     const double times[] = {0.040626571561, 0.19997381698, 0.3533191041};
@@ -138,16 +130,9 @@ TEST(Impacts, AreNotFoundInNumbersWithFewDigits) {
 
 TEST(Impacts, RefuseInvalidSettings) {
     StoredSamples source(named({"v"}), sampled(200, 500, {[](double t) { return t; }}));
-    const auto with = [](auto change) {
-        ImpactSettings settings;
-        change(settings);
-        return settings;
-    };
-    EXPECT_THROW(ImpactFinder(borrowed(source), with([](ImpactSettings& s) { s.velocity = 1; })), InputError);
-    EXPECT_THROW(ImpactFinder(borrowed(source), with([](ImpactSettings& s) { s.displacement = 1; })), InputError);
-    EXPECT_THROW(ImpactFinder(borrowed(source), with([](ImpactSettings& s) { s.window = 4; })), InputError);
-    EXPECT_THROW(ImpactFinder(borrowed(source), with([](ImpactSettings& s) { s.significance = 0; })), InputError);
-    EXPECT_THROW(ImpactFinder(borrowed(source), with([](ImpactSettings& s) { s.least_jump = -1; })), InputError);
+    for (const ImpactSettings& settings :
+         {ImpactSettings{{}, 1}, {{}, 0, 1}, {{.window = 4}}, {{}, 0, {}, 0}, {{.least_jump = -1}}})
+        EXPECT_THROW(ImpactFinder(borrowed(source), settings), InputError);
 }
 
 } // namespace graze::testing

@@ -32,13 +32,8 @@ TEST(ProcessedRecord, WithoutProcessingIsTheRecordItself) {
 
 /// The derivative is taken of the scaled channel, within the selected part.
 TEST(ProcessedRecord, ScalesBeforeItDifferentiates) {
-    RecordProcessing processing;
-    processing.scales = {{"x", 3, 5, "um"}};
-    processing.begin = 2;
-    processing.end = 4;
-    processing.derivative = "x";
-    processing.half_width = 6;
-    ProcessedRecord processed(record(), processing);
+    ProcessedRecord processed(
+        record(), {.scales = {{"x", 3, 5, "um"}}, .begin = 2, .end = 4, .derivative = "x", .half_width = 6});
     ASSERT_EQ(processed.header().channels.size(), 4U);
     EXPECT_EQ(processed.header().channels[0].unit, "um");
     EXPECT_EQ(processed.header().channels[1].unit, "");
@@ -58,9 +53,7 @@ TEST(ProcessedRecord, ScalesBeforeItDifferentiates) {
 /// A wave of 20 cycles would be aliased to 5 if every fourth sample were kept without a filter.
 TEST(ProcessedRecord, FiltersWavesThatDecimationWouldAlias) {
     for (const double turns : {2.0, 20.0}) {
-        RecordProcessing processing;
-        processing.every = 4;
-        ProcessedRecord processed(record(turns), processing);
+        ProcessedRecord processed(record(turns), {.every = 4});
         const Samples rows = read_all(processed.source(), 2000);
         ASSERT_GT(rows.rows(), 200U);
         EXPECT_NEAR(rows.times[1] - rows.times[0], 0.04, 1e-12);
@@ -73,13 +66,10 @@ TEST(ProcessedRecord, FiltersWavesThatDecimationWouldAlias) {
 }
 
 TEST(ProcessedRecord, RefusesARecordWithoutRowsByTheNamesOfOptions) {
-    RecordProcessing processing;
-    processing.begin = 1e9;
     for (const auto& [asked_as, remedy] :
          {std::pair("", "let `part` leave some"), std::pair("--", "let the times leave some")})
         try {
-            processing.asked_as = asked_as;
-            ProcessedRecord processed(record(), processing);
+            ProcessedRecord processed(record(), {.begin = 1e9, .asked_as = asked_as});
             Samples samples;
             processed.source().read(samples);
             ADD_FAILURE() << "it was accepted";
@@ -98,14 +88,10 @@ TEST(ProcessedRecord, RefusesUnknownChannels) {
         }
         return "";
     };
-    RecordProcessing processing;
-    processing.asked_as = "--";
-    processing.scales = {{"y", 2, 0, {}}};
-    EXPECT_THAT(message(processing), ::testing::HasSubstr("--scale"));
-    processing.scales.clear();
-    processing.derivative = "y";
-    EXPECT_THAT(message(processing), ::testing::HasSubstr("--derivative"));
-    EXPECT_THAT(message(processing), ::testing::HasSubstr("'y'"));
+    EXPECT_THAT(message({.scales = {{"y", 2, 0, {}}}, .asked_as = "--"}), ::testing::HasSubstr("--scale"));
+    const std::string of_derivative = message({.derivative = "y", .asked_as = "--"});
+    EXPECT_THAT(of_derivative, ::testing::HasSubstr("--derivative"));
+    EXPECT_THAT(of_derivative, ::testing::HasSubstr("'y'"));
 }
 
 } // namespace graze::testing

@@ -36,6 +36,35 @@ std::string refusal_of(const std::string& text, const RecordLayout& layout = {})
     return "nothing";
 }
 
+RecordHeader example_header() {
+    return {{"t", "s"}, {{"I", "A"}, {"q", ""}}};
+}
+
+Samples example_samples(std::size_t rows) {
+    Samples samples;
+    samples.clear(2);
+    for (std::size_t i = 0; i < rows; ++i) {
+        const double t = static_cast<double>(i) / 3;
+        samples.times.push_back(t);
+        samples.values[0].push_back(std::sin(t));
+        samples.values[1].push_back(1e-300 * t);
+    }
+    return samples;
+}
+
+std::string written(const TemporaryFolder& folder, const std::string& name, std::size_t rows) {
+    RecordWriter writer(folder / name, example_header());
+    const Samples samples = example_samples(rows);
+    Samples part;
+    for (std::size_t first = 0; first < rows; first += 1000) {
+        part.clear(2);
+        part.append(samples, first, std::min(rows, first + 1000));
+        writer.write(part);
+    }
+    writer.close();
+    return folder / name;
+}
+
 } // namespace
 
 TEST(RecordFile, HeaderGivesNamesAndUnits) {
@@ -68,9 +97,7 @@ TEST(RecordFile, FiveColumnsWithoutAHeaderAreThoseOfTheDissertation) {
     const auto record = open_record(folder.write("20100427_203411_06100_05920_0.dat", text));
     EXPECT_EQ(record->header().channels[3].name, "v");
     EXPECT_THAT(read_all(*record, most).values[3], ElementsAre(-4, -4.5));
-    RecordLayout layout;
-    layout.columns = "t [s], V [V], I [A]";
-    EXPECT_THAT(read_text("0 1 2\n1 3 4\n", layout).values[1], ElementsAre(2, 4));
+    EXPECT_THAT(read_text("0 1 2\n1 3 4\n", {.columns = "t [s], V [V], I [A]"}).values[1], ElementsAre(2, 4));
 }
 
 TEST(RecordFile, ErrorsHaveTheirPlace) {
@@ -100,48 +127,13 @@ TEST(RecordFile, ErrorsHaveTheirPlace) {
     };
     for (const auto& [text, message] : mistakes)
         EXPECT_THAT(refusal_of(text), HasSubstr(message)) << text;
-    RecordLayout layout;
-    layout.columns = "t,v";
-    EXPECT_THAT(refusal_of("t,v\n0,1\n", layout), HasSubstr("r.csv:1:1: the file has a header of its own"));
+    EXPECT_THAT(refusal_of("t,v\n0,1\n", {.columns = "t,v"}), HasSubstr("r.csv:1:1: the file has a header of its own"));
     EXPECT_THAT(refusal_of("t,v\n" + std::string(3'000'000, '1')), HasSubstr("r.csv:2:1: this line has more than"));
     EXPECT_THAT(refusal_of(std::string(9'000'000, ' ')), HasSubstr("r.csv:1:1: this line has more than"));
     EXPECT_THROW(open_record("/no/such/record"), InputError);
     EXPECT_THROW(open_record("/tmp"), InputError);
     EXPECT_THROW(open_record("/dev/zero"), InputError);
 }
-
-namespace {
-
-RecordHeader example_header() {
-    return {{"t", "s"}, {{"I", "A"}, {"q", ""}}};
-}
-
-Samples example_samples(std::size_t rows) {
-    Samples samples;
-    samples.clear(2);
-    for (std::size_t i = 0; i < rows; ++i) {
-        const double t = static_cast<double>(i) / 3;
-        samples.times.push_back(t);
-        samples.values[0].push_back(std::sin(t));
-        samples.values[1].push_back(1e-300 * t);
-    }
-    return samples;
-}
-
-std::string written(const TemporaryFolder& folder, const std::string& name, std::size_t rows) {
-    RecordWriter writer(folder / name, example_header());
-    const Samples samples = example_samples(rows);
-    Samples part;
-    for (std::size_t first = 0; first < rows; first += 1000) {
-        part.clear(2);
-        part.append(samples, first, std::min(rows, first + 1000));
-        writer.write(part);
-    }
-    writer.close();
-    return folder / name;
-}
-
-} // namespace
 
 TEST(RecordFile, WrittenRecordsAreReadBackBitForBit) {
     const TemporaryFolder folder;
@@ -166,10 +158,7 @@ TEST(RecordFile, TextRefusesNamesThatCannotBeReadBack) {
         EXPECT_FALSE(std::filesystem::exists(folder / "r.csv"));
     }
     RecordWriter writer(folder / "r.h5", {{"t", "s"}, {{"a,b", "V"}}});
-    Samples samples;
-    samples.times = {0, 1};
-    samples.values = {{2, 3}};
-    writer.write(samples);
+    writer.write({{0, 1}, {{2, 3}}});
     writer.close();
     EXPECT_EQ(open_record(folder / "r.h5")->header().channels.at(0).name, "a,b");
 }
@@ -186,9 +175,7 @@ TEST(RecordFile, DamagedHdf5IsRefused) {
             refused += error.remedy().empty() ? 0 : 1;
         }
     EXPECT_EQ(refused, tried);
-    RecordLayout layout;
-    layout.group = "/elsewhere";
-    EXPECT_THROW(open_record(folder / "record.h5", layout), InputError);
+    EXPECT_THROW(open_record(folder / "record.h5", {.group = "/elsewhere"}), InputError);
 }
 
 TEST(RecordFile, WriterRefusesInvalidSamples) {

@@ -1,31 +1,15 @@
 #pragma once
 
 #include "graze/model/catalogue.hpp"
-#include "graze/record/samples.hpp"
 #include "graze/trajectory/recorder.hpp"
 #include "graze/trajectory/trajectory.hpp"
+#include "record/waves.hpp"
 
 #include <cmath>
-#include <random>
 #include <string>
 #include <vector>
 
 namespace graze::testing {
-
-/// Noise that is the same with every standard library (their normal distributions differ).
-class Noise {
-public:
-    explicit Noise(std::uint64_t seed) : engine_(seed) {}
-    double uniform() { return (static_cast<double>(engine_() >> 11) + 0.5) * 0x1p-53; }
-    /// Standard normal (Box and Muller).
-    double normal() {
-        const double radius = std::sqrt(-2 * std::log(uniform()));
-        return radius * std::cos(2 * std::acos(-1.0) * uniform());
-    }
-
-private:
-    std::mt19937_64 engine_;
-};
 
 /// A simulated record of a shipped model: channels are its states, and `drive`, the sine of the phase.
 struct RecordedModel {

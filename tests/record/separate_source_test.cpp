@@ -5,6 +5,7 @@
 #include "graze/record/record_file.hpp"
 #include "graze/record/record_writer.hpp"
 #include "mutated.hpp"
+#include "record/waves.hpp"
 
 #include <gmock/gmock.h>
 
@@ -16,7 +17,6 @@
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
-#include <functional>
 #include <thread>
 
 namespace graze::testing {
@@ -90,9 +90,6 @@ TEST(SeparateSource, ErrorsKeepPlaceAndRemedy) {
 }
 
 TEST(SeparateSource, TimeAndMemoryAreLimited) {
-    ReadingLimits limits;
-    limits.work = 0.2;
-    limits.silence = 20;
     EXPECT_THAT(refusal_of(
                     [](Samples&) {
                         for (volatile int i = 0;;) {
@@ -101,11 +98,10 @@ TEST(SeparateSource, TimeAndMemoryAreLimited) {
                         }
                         return true;
                     },
-                    limits),
+                    {.work = 0.2, .silence = 20}),
                 HasSubstr("takes more than 0.2 s"));
-    limits.work = 5;
-    limits.silence = 0.2;
-    EXPECT_THAT(refusal_of([](Samples&) { return pause() != 0; }, limits), HasSubstr("takes more than 0.2 s"));
+    EXPECT_THAT(refusal_of([](Samples&) { return pause() != 0; }, {.work = 5, .silence = 0.2}),
+                HasSubstr("takes more than 0.2 s"));
     if (sanitized)
         return; // then no limit is set
     EXPECT_THAT(refusal_of([](Samples& samples) {
@@ -156,13 +152,7 @@ TEST(SeparateSource, ManyThreadsReadAtOnce) {
     const std::string path = folder / "r.h5";
     {
         RecordWriter writer(path, {{"t", "s"}, {{"x", "mm"}}});
-        Samples samples;
-        samples.values.resize(1);
-        for (int i = 0; i < 20'000; ++i) {
-            samples.times.push_back(i);
-            samples.values[0].push_back(i * i);
-        }
-        writer.write(samples);
+        writer.write(sampled(1, 20'000, {[](double t) { return t * t; }}));
         writer.close();
     }
     std::vector<std::thread> threads;

@@ -9,7 +9,6 @@
 #include <limits>
 #include <numbers>
 #include <utility>
-#include <vector>
 
 namespace graze::testing {
 

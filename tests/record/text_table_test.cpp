@@ -2,14 +2,11 @@
 
 #include "base/temporary_folder.hpp"
 #include "graze/base/input_error.hpp"
-#include "graze/record/record_file.hpp"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <string>
 #include <tuple>
-#include <vector>
 
 namespace graze::testing {
 
@@ -222,8 +219,7 @@ TEST(TextTable, ReadsDecimalCommas) {
         EXPECT_THAT(file.rows.times, ElementsAre(0.5, 1)) << text;
         EXPECT_THAT(file.rows.values[0], ElementsAre(-1.25, 2)) << text;
     }
-    RecordLayout layout;
-    layout.columns = "t [s], v [V]";
+    const RecordLayout layout{.columns = "t [s], v [V]"};
     EXPECT_THAT(read_file("0,5;-1,25\n1,0;2,0\n", layout).rows.values[0], ElementsAre(-1.25, 2));
     EXPECT_THAT(read_file("0,5 -1,25\n1,0 2,0\n", layout).rows.values[0], ElementsAre(-1.25, 2));
     // With both signs in use neither is certain.
@@ -297,21 +293,12 @@ TEST(TextTable, TruncatedRowsAreLeftOut) {
 
 TEST(TextTable, TakesLinesThatTheLayoutNames) {
     const std::string text = "made by somebody, at 12:03\n1,2\n% t [s], a, b\n(s),(V),(A)\n\n0,1,2\n1,3,4\n";
-    RecordLayout layout;
-    layout.names_line = 3;
-    layout.units_line = 4;
-    const ReadFile file = read_file(text, layout);
+    const ReadFile file = read_file(text, {.names_line = 3, .units_line = 4});
     EXPECT_THAT(file.names(), ElementsAre("t|s", "a|V", "b|A"));
     EXPECT_THAT(file.rows.values[1], ElementsAre(2, 4));
-    RecordLayout skipping;
-    skipping.skip = 4;
-    skipping.columns = "t [ms], x, y";
-    EXPECT_THAT(read_file(text, skipping).names(), ElementsAre("t|ms", "x|", "y|"));
-    skipping.columns.clear();
-    skipping.skip = 1;
-    EXPECT_THAT(read_file("1,2\nt,v\n0,1\n", skipping).rows.times, ElementsAre(0));
-    skipping.skip = 100;
-    EXPECT_THAT(refusal_of(text, skipping), HasSubstr("the file has 7 lines"));
+    EXPECT_THAT(read_file(text, {.columns = "t [ms], x, y", .skip = 4}).names(), ElementsAre("t|ms", "x|", "y|"));
+    EXPECT_THAT(read_file("1,2\nt,v\n0,1\n", {.skip = 1}).rows.times, ElementsAre(0));
+    EXPECT_THAT(refusal_of(text, {.skip = 100}), HasSubstr("the file has 7 lines"));
     EXPECT_THAT(refusal_of("made by\nsomebody\nt,v\n0,1,2\n"),
                 HasSubstr("r.csv:4:1: this row has 3 columns, and line 3, which should name them, has 2"));
 }

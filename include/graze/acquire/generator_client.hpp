@@ -22,7 +22,7 @@ struct GeneratorLimits {
 
 /// Options of `GeneratorClient`.
 struct GeneratorOptions {
-    GeneratorLimits limits;
+    GeneratorLimits limits{};
     double load = 50;        ///< load of the output in ohm; infinity: high impedance
     double timeout = 2;      ///< longest wait for an answer, in s
     int attempts = 3;        ///< attempts for each setting if lines are lost or garbled
@@ -59,7 +59,6 @@ public:
     double set_frequency(double frequency);
     /// Returns the present amplitude. Unit, shape, load, modulations, offset and frequency are read back, too.
     double amplitude();
-    double frequency();
     /// The generator's answer to *IDN?.
     const std::string& identity() const { return identity_; }
 
@@ -73,6 +72,7 @@ public:
 
 private:
     struct Setting; // a numeric setting
+    static const Setting of_amplitude, of_offset, of_frequency;
     /// A setting chosen from words, or a load.
     struct Choice {
         std::string command, value;                       ///< command and value that are sent
@@ -84,7 +84,7 @@ private:
     template <class Work>
     void attempt(const Work& work, int factor = 1);
     double set(const Setting& setting, double value, const std::function<void()>& at_once = {});
-    void check(const Setting& setting, double value);
+    double checked(const Setting& setting, double value);
     bool is_in_step();
     bool choose(const Choice& choice, bool needed);
     void require(const Choice& choice);

@@ -12,7 +12,7 @@ namespace graze {
 
 /// Properties of a record in the list of records.
 struct RecordEntry {
-    Level level;
+    Level level{};
     double told = 0; ///< amplitude reported by the generator
     bool settled = false;
     double settling = 0; ///< time from the setting to the record, in s

@@ -12,25 +12,16 @@
 
 namespace graze {
 
-/// A device that takes the samples of an experiment: a converter with its sensors. All functions throw InstrumentError
-/// when the device fails.
-class SampleDevice {
+/// A device that takes the samples of an experiment: a converter with its sensors. As a source it returns those that it
+/// was asked for, with times counted from the first one. All functions throw InstrumentError when the device fails.
+class SampleDevice : public SampleSource {
 public:
-    SampleDevice() = default;
-    virtual ~SampleDevice() = default;
-    SampleDevice(const SampleDevice&) = delete;
-    SampleDevice& operator=(const SampleDevice&) = delete;
-
-    virtual const RecordHeader& header() const = 0;
     /// @param rate samples per second
     virtual void set_rate(double rate) = 0;
     /// Begins to take samples, from now on and without gaps.
     /// @param block samples per read; a device whose time stands still while nobody reads takes no more before the next
     /// read. 0: no limit
     virtual void begin(std::size_t count, std::size_t block = 0) = 0;
-    /// Replaces `samples` by the next ones, with times counted from the first one.
-    /// @return false when all requested ones have been returned
-    virtual bool read(Samples& samples) = 0;
     /// Stops taking samples early.
     virtual void stop() = 0;
     /// Stores, or restores, the state of the whole experiment under a number, which only a simulated one can do.
@@ -61,7 +52,6 @@ public:
 
 private:
     std::string asked(std::string_view question);
-    bool done(const char* word, std::uint64_t number);
     void parse(const std::string& row, Samples& samples);
     [[noreturn]] void refuse(const std::string& line, const char* wanted) const;
     void drain();

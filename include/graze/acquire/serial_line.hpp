@@ -13,7 +13,7 @@ enum class FlowControl { none, software, hardware };
 
 /// Settings of a serial line; the defaults are those of the HP 33120A in B. E. Wilcox's dissertation.
 struct SerialSettings {
-    std::string port; ///< such as /dev/ttyUSB0, or a VISA name
+    std::string port{}; ///< such as /dev/ttyUSB0, or a VISA name
     unsigned baud = 9600, data_bits = 8;
     Parity parity = Parity::none;
     StopBits stop_bits = StopBits::two;

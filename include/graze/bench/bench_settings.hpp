@@ -3,7 +3,6 @@
 #include "graze/model/model.hpp"
 #include "graze/model/named_value.hpp"
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>

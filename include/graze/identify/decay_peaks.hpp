@@ -1,12 +1,22 @@
 #pragma once
 
-#include "graze/identify/decay_wave.hpp"
+#include "graze/identify/residual_test.hpp"
 #include "graze/record/samples.hpp"
 
 #include <cstddef>
 #include <vector>
 
 namespace graze {
+
+/// A damped sine c + exp(-decay t) (a cos(turn t) + b sin(turn t)), fitted by least squares to the samples of a
+/// release.
+struct DecayWave {
+    double turn = 0, decay = 0; ///< angular frequency of the damped oscillation, and decay rate, per unit of time
+    double turn_variance = 0, decay_variance = 0; ///< squared standard errors of `turn` and `decay`
+    double covariance = 0;                        ///< covariance of `turn` and `decay`
+    double freedom = 0;                           ///< degrees of freedom: samples less unknowns
+    ResidualTest residual_test{};                 ///< test of whether the samples are a damped sine with random noise
+};
 
 /// Successive maxima of a decaying oscillation, one a period, and the damped sine through its samples.
 struct DecayPeaks {

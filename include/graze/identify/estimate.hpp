@@ -25,6 +25,11 @@ double student_quantile(double probability, double freedom);
 /// @param ratio not negative; both degrees of freedom must be positive
 double fisher_tail(double ratio, double first, double second);
 
+/// Returns the probability that a chi-square variable with `freedom` degrees of freedom exceeds `squares` (1 for 0
+/// degrees of freedom).
+/// @param squares not negative
+double chi_square_tail(double squares, std::size_t freedom);
+
 /// The mean of several estimates of one number, and how much the number itself varies between them.
 struct Combined {
     Estimate mean;

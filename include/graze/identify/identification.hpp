@@ -41,6 +41,10 @@ struct Identification {
     /// Points of a curve.
     struct Curve {
         std::vector<double> x, y;
+        void add(double at, double value) {
+            x.push_back(at);
+            y.push_back(value);
+        }
     };
     struct Shown {
         Curve measured, fitted, left;

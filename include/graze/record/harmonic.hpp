@@ -16,6 +16,8 @@ struct Harmonic {
     double noise = 0;                                          ///< standard deviation of the residuals
     std::size_t samples = 0;
 
+    /// Value of the fitted function at a time.
+    double at(double time) const;
     double amplitude() const;
     double amplitude_error() const;
     /// The phase in amplitude sin(w t + phase), in radians.

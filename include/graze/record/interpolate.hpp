@@ -2,7 +2,6 @@
 
 #include "graze/record/samples.hpp"
 
-#include <cstddef>
 #include <span>
 
 namespace graze {

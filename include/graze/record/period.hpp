@@ -3,10 +3,10 @@
 #include "graze/record/samples.hpp"
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace graze {
 
@@ -69,5 +69,17 @@ struct PeriodFit {
 
 /// Fits the line by least squares. Errors are 0 for two crossings. @throws InputError for fewer than two
 PeriodFit fit_period(std::span<const double> crossings);
+
+/// Summary of all periods of a record.
+struct RecordPeriods {
+    std::size_t count = 0;
+    double amplitude = 0; ///< amplitude of the reference, averaged over the periods: the abscissa of diagrams
+};
+
+/// Calls `take` for each period of a record in turn.
+/// @param asked_as prefix of option names in messages, such as "--"
+/// @throws InputError as PeriodSplitter does, and if there is no whole period
+RecordPeriods each_period(SampleSource& source, const PeriodSettings& settings,
+                          const std::function<void(const Period&)>& take, const std::string& asked_as = "");
 
 } // namespace graze

@@ -19,7 +19,7 @@ struct RecordLayout {
     /// Names and units of the columns of a text without a header, the time first: "t [s], V [V], I [A]". The file must
     /// not have a header then, unless it is skipped. Empty: the header names them, or the file has the five columns
     /// time, V, I, q and dq/dt of B. E. Wilcox's dissertation, which are named t, V, I, q, v.
-    std::string columns;
+    std::string columns{};
     /// HDF5: the group whose datasets are the channels.
     std::string group = "/";
     std::size_t skip = 0; ///< text: number of lines to skip at the beginning

@@ -12,6 +12,9 @@ namespace graze {
 /// Name and unit of a column of a record.
 struct Channel {
     std::string name, unit; ///< the unit is empty if it is unknown
+
+    /// Such as "V [V]", or only the name.
+    std::string titled() const { return unit.empty() ? name : name + " [" + unit + "]"; }
 };
 
 /// Names and units of a record's time and channels.
@@ -19,6 +22,8 @@ struct RecordHeader {
     Channel time{"t", ""};
     std::vector<Channel> channels;
 
+    /// Returns the first line of a text of this record, such as "t [s], V [V]".
+    std::string heading() const;
     /// Returns the index of a channel. @param asked the option that names it, such as "--reference", for messages
     /// @throws InputError for an unknown channel, with the nearest name
     std::size_t channel(std::string_view name, std::string_view asked) const;
