@@ -1,5 +1,4 @@
 #include "base/special_numbers.hpp"
-#include "picture/drawn_labels.hpp"
 #include "picture/picture_kinds.hpp"
 
 #include <fmt/format.h>

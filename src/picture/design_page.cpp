@@ -4,7 +4,7 @@
 #include "graze/base/input_error.hpp"
 #include "graze/picture/trip_series.hpp"
 #include "graze/picture/yield_picture.hpp"
-#include "picture/contour_lines.hpp"
+#include "picture/curve.hpp"
 
 #include <fmt/format.h>
 

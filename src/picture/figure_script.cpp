@@ -1,15 +1,11 @@
 #include "graze/picture/figure_script.hpp"
 
 #include "graze/base/input_error.hpp"
-#include "picture/covered_lines.hpp"
 #include "picture/curve.hpp"
-#include "picture/dot_strokes.hpp"
 #include "picture/figure_layout.hpp"
 #include "picture/figure_look.hpp"
-#include "picture/figure_terminal.hpp"
 #include "picture/gnuplot_text.hpp"
-#include "picture/interleaved_crosses.hpp"
-#include "picture/interleaved_dots.hpp"
+#include "picture/interleaved_points.hpp"
 #include "picture/page_line.hpp"
 
 #include <fmt/format.h>
@@ -26,11 +22,6 @@ namespace {
 
 /// Greatest deviation of a simplified line, as a fraction of the panel's size.
 constexpr double invisible_step = 1e-4;
-
-bool draws_line(FigureSeries::Style style) {
-    return style == FigureSeries::Style::line || style == FigureSeries::Style::dashed ||
-           style == FigureSeries::Style::dotted;
-}
 
 /// Diameter of dots in points, smaller if there are many dots; it is the same in all panels of a picture.
 double dot_width(std::size_t dots, bool pixels) {
@@ -288,7 +279,7 @@ private:
             add(data_text(series, panel, layout),
                 style_text(series,
                            series.style == FigureSeries::Style::impulses ? panel.series.size() - 1 - s : covering[s]));
-            if (const int mark = grey() && draws_line(series.style) ? line_mark(series.colour) : 0; mark != 0)
+            if (const int mark = grey() && is_line(series.style) ? line_mark(series.colour) : 0; mark != 0)
                 add(marks_text(series, panel, layout),
                     fmt::format("with points pt {} ps {:.3g} lc rgb '{}'", mark, line_mark_size * symbol_,
                                 colour_text(series.colour, true)));
@@ -352,7 +343,7 @@ private:
     }
 
     std::string data_text(const FigureSeries& series, const FigurePanel& panel, const PanelLayout& layout) const {
-        const bool line = draws_line(series.style);
+        const bool line = is_line(series.style);
         std::string text;
         for (const PlaneBox& cell : series.cells)
             text += fmt::format("{:.10g} {:.10g} {:.10g} {:.10g} {:.10g} {:.10g}\n", (cell.left + cell.right) / 2,

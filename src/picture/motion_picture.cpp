@@ -1,5 +1,5 @@
 #include "base/special_numbers.hpp"
-#include "picture/motion_curve.hpp"
+#include "picture/curve.hpp"
 #include "picture/picture_kinds.hpp"
 
 #include "graze/study/point_motion.hpp"

@@ -5,7 +5,7 @@
 #include "graze/results/stored_orbit.hpp"
 #include "graze/study/plain_states.hpp"
 #include "graze/symbolic/function.hpp"
-#include "picture/motion_curve.hpp"
+#include "picture/curve.hpp"
 #include "picture/picture_kinds.hpp"
 
 #include <fmt/format.h>

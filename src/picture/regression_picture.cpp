@@ -1,4 +1,3 @@
-#include "picture/drawn_labels.hpp"
 #include "picture/picture_kinds.hpp"
 
 #include "graze/results/regression.hpp"

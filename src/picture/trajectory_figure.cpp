@@ -2,7 +2,6 @@
 
 #include "base/special_numbers.hpp"
 #include "picture/curve.hpp"
-#include "picture/motion_curve.hpp"
 #include "picture/shown_names.hpp"
 
 #include <fmt/format.h>

@@ -92,7 +92,7 @@ TEST(LabelPlaces, EachLabelIsNearestToItsOwnSymbol) {
     for (const PlacedLabel& label : places.labels)
         for (const PlanePoint& point : symbols.points) {
             const PlanePoint other{300 * point.x, 200 * point.y};
-            if (std::hypot(other.x - label.point.x, other.y - label.point.y) < mark_size(9) / 2)
+            if (distance_of(label.point, other) < mark_size(9) / 2)
                 continue; // they have one label
             if (label.led)
                 EXPECT_FALSE(
