@@ -132,8 +132,7 @@ void add_samples(FigurePanel& panel, const StudyPicture& picture, const StoredRu
     const std::vector<std::string> directions =
         has_direction ? std::vector<std::string>{shown.direction} : std::vector<std::string>();
     const bool judged = seeks_attractors(run.record);
-    FigureSeries uncertain{"", FigureSeries::Style::symbols, mark_of_label(name_of(Label::unsettled)).colour, {}};
-    uncertain.symbol = mark_of_label(name_of(Label::unsettled)).symbol;
+    FigureSeries uncertain = series_of_label(name_of(Label::unsettled));
     uncertain.title = named_with(name_of(Label::unsettled), over ? shown_name(picture, run.record.name) : "");
     auto rows = run.rows({.samples = true,
                           .columns = {"sampling", "label"},
@@ -198,7 +197,7 @@ void add_over(Figure& figure, const StudyPicture& picture, const std::vector<Sho
 
 } // namespace
 
-Figure bifurcation_picture(const StudyPicture& picture, const ResultFile& file) {
+ResultPicture bifurcation_picture(const StudyPicture& picture, const ResultFile& file) {
     Figure figure;
     std::vector<ShownPanel> shown;
     for (const std::string& name : picture.runs) {
@@ -228,7 +227,7 @@ Figure bifurcation_picture(const StudyPicture& picture, const ResultFile& file) 
     }
     add_over(figure, picture, shown, file);
     share_axes(figure);
-    return figure;
+    return {std::move(figure)};
 }
 
 } // namespace graze

@@ -17,20 +17,22 @@ namespace graze {
 
 namespace {
 
-struct LabelMark {
+/// The look of points without an attractor: gnuplot's symbol for points, gnuplot's pattern for cells.
+struct LabelLook {
     Label label;
-    MarkOfLabel mark;
+    std::size_t colour;
+    int symbol, hatch;
 };
 
-constexpr std::array<LabelMark, 8> label_marks{{
-    {Label::unsettled, {FigureSeries::grey, 2, 4}},
-    {Label::transient, {FigureSeries::grey, 6, 3}},
-    {Label::escaped, {FigureSeries::grey, 1, 5}},
-    {Label::unbounded, {FigureSeries::grey, 8, 7}},
-    {Label::ended, {FigureSeries::grey, 4, 6}},
-    {Label::chattering, {FigureSeries::grey, 10, 1}},
-    {Label::singular, {FigureSeries::black, 12, 2}},
-    {Label::failed, {FigureSeries::black, 3, 0}},
+constexpr std::array<LabelLook, 8> label_looks{{
+    {Label::unsettled, FigureSeries::grey, 2, 4},
+    {Label::transient, FigureSeries::grey, 6, 3},
+    {Label::escaped, FigureSeries::grey, 1, 5},
+    {Label::unbounded, FigureSeries::grey, 8, 7},
+    {Label::ended, FigureSeries::grey, 4, 6},
+    {Label::chattering, FigureSeries::grey, 10, 1},
+    {Label::singular, FigureSeries::black, 12, 2},
+    {Label::failed, FigureSeries::black, 3, 0},
 }};
 
 } // namespace
@@ -189,11 +191,11 @@ std::string note_of_left_out(const StoredRun& run, const std::vector<std::string
                          : fmt::format("without an attractor, not drawn: {} of {} points", fmt::join(parts, ", "), all);
 }
 
-MarkOfLabel mark_of_label(std::string_view label) {
-    for (const LabelMark& one : label_marks)
-        if (label == name_of(one.label))
-            return one.mark;
-    return label_marks.front().mark;
+FigureSeries series_of_label(std::string_view label) {
+    const auto found = std::find_if(label_looks.begin(), label_looks.end(),
+                                    [&](const LabelLook& one) { return label == name_of(one.label); });
+    const LabelLook& look = found == label_looks.end() ? label_looks.front() : *found;
+    return {.style = FigureSeries::Style::symbols, .colour = look.colour, .symbol = look.symbol, .hatch = look.hatch};
 }
 
 } // namespace graze

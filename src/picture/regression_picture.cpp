@@ -67,9 +67,7 @@ FigureSeries fitted_line(const StudyPicture& picture, const RegressionLine& fit,
                          std::size_t colour) {
     const Regression& line = fit.line;
     FigureSeries series{fmt::format("{}slope {:.4f}, intercept {:.4f}", title, line.slope, line.intercept),
-                        FigureSeries::Style::line,
-                        colour,
-                        {}};
+                        FigureSeries::Style::line, colour};
     for (const double end : {fit.least, fit.greatest}) {
         const double at = line.intercept + line.slope * (picture.logarithmic_x ? std::log10(end) : end);
         series.points.push_back({end, picture.logarithmic_y ? std::pow(10, at) : at});
@@ -119,7 +117,7 @@ ResultPicture regression_picture(const StudyPicture& picture, const ResultFile& 
     return result;
 }
 
-Figure scatter_picture(const StudyPicture& picture, const ResultFile& file) {
+ResultPicture scatter_picture(const StudyPicture& picture, const ResultFile& file) {
     Figure figure;
     for (std::size_t r = 0; r < picture.runs.size(); ++r) {
         const StoredRun run(file, picture.runs[r], picture.place);
@@ -130,15 +128,11 @@ Figure scatter_picture(const StudyPicture& picture, const ResultFile& file) {
             if (v >= figure.panels.size())
                 figure.panels.push_back(panel_of(picture, run, x, ys[v], v));
             FigureSeries series{picture.runs.size() > 1 ? shown_name(picture, picture.runs[r]) : "",
-                                FigureSeries::Style::circles,
-                                r,
-                                {}};
+                                FigureSeries::Style::circles, r};
             const bool sampled = run.has_value(ys[v]) && !run.record.is_branch();
             const bool judged = seeks_attractors(run.record);
-            const MarkOfLabel mark = mark_of_label(name_of(Label::unsettled));
-            FigureSeries uncertain{
-                std::string(name_of(Label::unsettled)), FigureSeries::Style::symbols, mark.colour, {}};
-            uncertain.symbol = mark.symbol;
+            FigureSeries uncertain = series_of_label(name_of(Label::unsettled));
+            uncertain.title = name_of(Label::unsettled);
             auto rows = run.rows({.samples = sampled, .columns = {"label"}, .quantities = {x, ys[v]}});
             while (rows.next()) {
                 if (rows.is_null(1) || rows.is_null(2))
@@ -164,7 +158,7 @@ Figure scatter_picture(const StudyPicture& picture, const ResultFile& file) {
             if (points > most_circles && series.style == FigureSeries::Style::circles)
                 series.style = FigureSeries::Style::dots;
     }
-    return figure;
+    return {std::move(figure)};
 }
 
 } // namespace graze

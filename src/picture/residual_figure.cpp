@@ -28,8 +28,7 @@ void add_residual_panels(Figure& figure, FigurePanel panel, const std::vector<Id
     residuals.y_label = "measured less fitted";
     residuals.y_words.clear();
     residuals.y_range.reset();
-    FigureSeries measured{"measured", Style::circles, 0, {}}, fitted{"fitted", Style::line, 1, {}},
-        left{"", Style::dots, 0, {}};
+    FigureSeries measured{"measured", Style::circles, 0}, fitted{"fitted", Style::line, 1}, left{"", Style::dots, 0};
     for (const Identification::Shown& one : shown) {
         add_points(measured, one.measured);
         add_points(fitted, one.fitted);
@@ -67,17 +66,14 @@ std::vector<Identification::Shown> shown_of(const StoredRun& run, const PointRec
 } // namespace
 
 Figure residual_figure(const Identification& found) {
-    FigurePanel panel;
-    panel.x_label = found.x.name;
-    panel.x_unit = found.x.unit;
-    panel.y_label = found.y.name;
-    panel.y_unit = found.y.unit;
     Figure figure;
-    add_residual_panels(figure, std::move(panel), found.shown);
+    add_residual_panels(
+        figure, {.x_label = found.x.name, .y_label = found.y.name, .x_unit = found.x.unit, .y_unit = found.y.unit},
+        found.shown);
     return figure;
 }
 
-Figure residual_picture(const StudyPicture& picture, const ResultFile& file) {
+ResultPicture residual_picture(const StudyPicture& picture, const ResultFile& file) {
     Figure figure;
     for (const std::string& name : picture.runs) {
         const StoredRun run(file, name, picture.place);
@@ -96,7 +92,7 @@ Figure residual_picture(const StudyPicture& picture, const ResultFile& file) {
                                 shown_of(run, point, static_cast<std::size_t>(at - known.begin())));
         }
     }
-    return figure;
+    return {std::move(figure)};
 }
 
 } // namespace graze

@@ -166,9 +166,9 @@ private:
     }
 
     void add_marks(FigurePanel& panel, std::size_t x, std::size_t y) const {
-        FigureSeries jumps{"jump", FigureSeries::Style::dotted, FigureSeries::black, {}};
-        FigureSeries contacts{"contact", FigureSeries::Style::symbols, FigureSeries::black, {}};
-        FigureSeries passages{recorder_->section_names(), FigureSeries::Style::circles, section_colour, {}};
+        FigureSeries jumps{"jump", FigureSeries::Style::dotted, FigureSeries::black};
+        FigureSeries contacts{"contact", FigureSeries::Style::symbols, FigureSeries::black};
+        FigureSeries passages{recorder_->section_names(), FigureSeries::Style::circles, section_colour};
         const bool cyclic = motion().periods[x] > 0 || motion().periods[y] > 0;
         for (const MotionRecorder::Jump& jump : recorder_->jumps()) {
             const PlanePoint before{jump.before[x], jump.before[y]}, after{jump.after[x], jump.after[y]};
