@@ -30,8 +30,7 @@ private:
 };
 
 std::string text_at(GridPoint point) {
-    return fmt::format("({:.3f}, {:.3f}) um", static_cast<double>(point.x) / grid_per_micrometre,
-                       static_cast<double>(point.y) / grid_per_micrometre);
+    return fmt::format("({:.3f}, {:.3f}) um", micrometres(point.x), micrometres(point.y));
 }
 
 /// Name of the largest of several lengths, which is most likely the one to change.
@@ -118,7 +117,7 @@ void require_width(const Requirements& rules, const DeviceDimensions& d) {
 
 /// Length of the label, in micrometres.
 double written_length(const DeviceDimensions& d) {
-    return static_cast<double>(letters_width(label_of(d), nanometres(d.label_height))) / grid_per_micrometre;
+    return micrometres(letters_width(label_of(d), nanometres(d.label_height)));
 }
 
 /// Length of a die that holds its label, a mark and three edges.

@@ -2,22 +2,10 @@
 
 #include <algorithm>
 #include <map>
-#include <tuple>
 
 namespace graze {
 
 namespace {
-
-/// Twice the signed area, positive for counterclockwise corners.
-double winding(const GridPolygon& polygon) {
-    double sum = 0;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const GridPoint &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-        sum +=
-            static_cast<double>(a.x) * static_cast<double>(b.y) - static_cast<double>(b.x) * static_cast<double>(a.y);
-    }
-    return sum;
-}
 
 /// Changes of the coverage beyond a line, along it: number of polygons that begin minus those that end.
 using Changes = std::map<std::int64_t, int>;
@@ -42,7 +30,7 @@ void add_edges(const std::map<std::int64_t, Changes>& lines, bool upright, std::
 std::vector<MaskEdge> mask_edges(std::span<const GridPolygon> polygons) {
     std::map<std::int64_t, Changes> upright, level;
     for (const GridPolygon& polygon : polygons) {
-        const int sense = winding(polygon) >= 0 ? 1 : -1;
+        const int sense = twice_area(polygon) >= 0 ? 1 : -1;
         for (std::size_t i = 0; i < polygon.size(); ++i) {
             const GridPoint &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
             if (a.x == b.x) { // the interior is to the left of an edge: beyond it if the edge goes down

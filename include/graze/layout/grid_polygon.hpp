@@ -38,7 +38,9 @@ using GridPolygon = std::vector<GridPoint>;
 
 GridPolygon polygon_of(const GridBox& box);
 GridBox bounding_box(std::span<const GridPoint> corners);
-/// Area in square micrometres, positive; computed exactly before rounding to a double, for sides up to two metres.
+/// Twice the area in square nanometres, positive for counterclockwise corners; exact for sides up to two metres.
+std::int64_t twice_area(std::span<const GridPoint> corners);
+/// Area in square micrometres, positive; computed exactly before rounding to a double.
 double area_of(std::span<const GridPoint> corners);
 double total_area(std::span<const GridPolygon> polygons);
 
