@@ -1,8 +1,8 @@
 #include "graze/layout/device_drawing.hpp"
 
-#include "layout/box_sets.hpp"
 #include "layout/device_rules.hpp"
 #include "layout/grid_lengths.hpp"
+#include "layout/mask_outlines.hpp"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #include "graze/base/input_errors.hpp"
 #include "layout/free_way.hpp"
 #include "layout/grid_lengths.hpp"
-#include "layout/mask_edges.hpp"
+#include "layout/mask_outlines.hpp"
 
 #include <fmt/format.h>
 

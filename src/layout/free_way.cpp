@@ -1,7 +1,7 @@
 #include "layout/free_way.hpp"
 
 #include "layout/grid_lengths.hpp"
-#include "layout/mask_edges.hpp"
+#include "layout/mask_outlines.hpp"
 
 #include <algorithm>
 #include <cmath>

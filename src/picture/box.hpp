@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/special_numbers.hpp"
 #include "graze/picture/figure.hpp"
 
 #include <algorithm>
@@ -29,6 +30,16 @@ struct Box {
     static Box around(const PlanePoint& centre, double width, double height) {
         return {centre.x - width / 2, centre.y - height / 2, centre.x + width / 2, centre.y + height / 2};
     }
+};
+
+/// The least and the greatest of some values, which are not finite while there is none.
+struct Extent {
+    double least = infinity, greatest = -infinity;
+    void add(double value) {
+        least = std::min(least, value);
+        greatest = std::max(greatest, value);
+    }
+    double span() const { return std::max(greatest - least, 0.0); }
 };
 
 /// The point at a fraction of the way from one point to another.

@@ -168,12 +168,11 @@ std::vector<PlanePoint> curve_of(const DenseMotion& motion, std::size_t x, std::
 }
 
 std::vector<double> contour_levels(const ContourGrid& grid, std::size_t about) {
-    double least = infinity, greatest = -least;
+    Extent range;
     for (const double value : grid.values)
-        if (std::isfinite(value)) {
-            least = std::min(least, value);
-            greatest = std::max(greatest, value);
-        }
+        if (std::isfinite(value))
+            range.add(value);
+    const auto [least, greatest] = range;
     std::vector<double> levels;
     if (!(least < greatest) || about == 0)
         return levels;

@@ -67,6 +67,14 @@ std::string firm_blanks(std::string markup) {
     return markup;
 }
 
+std::string drawing_terminal(const std::string& ending, double width, double height, double png_scale) {
+    if (ending == "png")
+        return fmt::format("pngcairo noenhanced size {:.0f},{:.0f}", png_scale * width, png_scale * height);
+    if (ending == "pdf")
+        return fmt::format("pdfcairo noenhanced size {:.3f}in,{:.3f}in", width / 96, height / 96);
+    return fmt::format("svg noenhanced size {:.0f},{:.0f} background rgb 'white'", width, height);
+}
+
 std::string number_text(double value) {
     return fmt::format("{:.10g}", value);
 }

@@ -24,6 +24,9 @@ std::string name_text(const std::string& name);
 std::string with_unit(const std::string& label, const std::string& unit);
 /// Replaces blanks at changes of the font, which SVG viewers would drop, by blanks that they keep.
 std::string firm_blanks(std::string markup);
+/// Arguments of `set terminal` without the font, for a drawing on a page in pixels. @param ending svg, png or pdf
+/// @param png_scale number of dots of a PNG for each pixel
+std::string drawing_terminal(const std::string& ending, double width, double height, double png_scale = 1);
 /// A number with ten significant digits.
 std::string number_text(double value);
 

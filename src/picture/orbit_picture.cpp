@@ -5,6 +5,7 @@
 #include "graze/results/stored_orbit.hpp"
 #include "graze/study/plain_states.hpp"
 #include "graze/symbolic/function.hpp"
+#include "picture/box.hpp"
 #include "picture/curve.hpp"
 #include "picture/picture_kinds.hpp"
 
@@ -170,14 +171,14 @@ public:
 private:
     /// Ranges of the curves in x and y.
     PlanePoint extent() const {
-        PlanePoint least{infinity, infinity}, greatest{-infinity, -infinity};
+        Extent x, y;
         for (std::size_t s = 0; s < orbit_.motion.size(); ++s)
             for (std::size_t row = 0; row < orbit_.motion[s].times.size(); ++row) {
                 const PlanePoint here = at(s, row);
-                least = {std::min(least.x, here.x), std::min(least.y, here.y)};
-                greatest = {std::max(greatest.x, here.x), std::max(greatest.y, here.y)};
+                x.add(here.x);
+                y.add(here.y);
             }
-        return {greatest.x - least.x, greatest.y - least.y};
+        return {x.greatest - x.least, y.greatest - y.least};
     }
     bool is_interrupted(const PlanePoint& a, const PlanePoint& b) const {
         const std::vector<double>& periods = orbit_.axes.periods;

@@ -3,6 +3,7 @@
 #include "graze/base/input_error.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/study/stored_study.hpp"
+#include "picture/box.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -106,23 +107,16 @@ std::string panel_letter(std::size_t index) {
 }
 
 void drop_constant_panels(Figure& figure) {
-    std::map<std::string, std::pair<double, double>> extents; // range of each y label over all its panels
+    std::map<std::string, Extent> extents; // of each y label over all its panels
     for (const FigurePanel& panel : figure.panels)
         for (const FigureSeries& series : panel.series)
             for (const PlanePoint& point : series.points)
-                if (std::isfinite(point.y)) {
-                    const auto at = extents.try_emplace(panel.y_label, point.y, point.y).first;
-                    at->second.first = std::min(at->second.first, point.y);
-                    at->second.second = std::max(at->second.second, point.y);
-                }
-    const auto changes = [&](const FigurePanel& panel) {
-        const auto at = extents.find(panel.y_label);
-        return at != extents.end() && !is_constant(at->second.first, at->second.second);
-    };
+                if (std::isfinite(point.y))
+                    extents[panel.y_label].add(point.y);
     std::set<std::string> all, kept;
     for (const FigurePanel& panel : figure.panels) {
         all.insert(panel.y_label);
-        if (changes(panel))
+        if (const Extent& range = extents[panel.y_label]; !is_constant(range.least, range.greatest))
             kept.insert(panel.y_label);
     }
     if (kept.empty() || kept.size() == all.size())

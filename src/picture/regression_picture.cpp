@@ -1,3 +1,4 @@
+#include "picture/box.hpp"
 #include "picture/picture_kinds.hpp"
 
 #include "graze/results/regression.hpp"
@@ -7,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <map>
 
 namespace graze {
@@ -44,7 +44,7 @@ std::map<double, std::vector<PlanePoint>> groups_of(const StudyPicture& picture,
 /// The regression line, and the range of x of its points.
 struct RegressionLine {
     Regression line;
-    double least = std::numeric_limits<double>::infinity(), greatest = -least;
+    Extent range;
 };
 
 RegressionLine fit_of(const StudyPicture& picture, const std::vector<PlanePoint>& points) {
@@ -56,8 +56,7 @@ RegressionLine fit_of(const StudyPicture& picture, const std::vector<PlanePoint>
             continue;
         xs.push_back(picture.logarithmic_x ? std::log10(point.x) : point.x);
         ys.push_back(picture.logarithmic_y ? std::log10(point.y) : point.y);
-        fit.least = std::min(fit.least, point.x);
-        fit.greatest = std::max(fit.greatest, point.x);
+        fit.range.add(point.x);
     }
     fit.line = regression(xs, ys);
     return fit;
@@ -68,7 +67,7 @@ FigureSeries fitted_line(const StudyPicture& picture, const RegressionLine& fit,
     const Regression& line = fit.line;
     FigureSeries series{fmt::format("{}slope {:.4f}, intercept {:.4f}", title, line.slope, line.intercept),
                         FigureSeries::Style::line, colour};
-    for (const double end : {fit.least, fit.greatest}) {
+    for (const double end : {fit.range.least, fit.range.greatest}) {
         const double at = line.intercept + line.slope * (picture.logarithmic_x ? std::log10(end) : end);
         series.points.push_back({end, picture.logarithmic_y ? std::pow(10, at) : at});
     }
