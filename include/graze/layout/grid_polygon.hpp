@@ -26,6 +26,8 @@ struct GridBox {
     }
     GridBox with(const GridBox& other) const; ///< smallest box that contains both
     bool contains(const GridBox& other) const;
+    bool contains(GridPoint point) const { return contains(GridBox{point.x, point.y, point.x, point.y}); }
+    GridPoint middle() const { return {(left + right) / 2, (bottom + top) / 2}; }
     /// Whether they share a point, including points on their edges.
     bool meets(const GridBox& other) const {
         return left <= other.right && other.left <= right && bottom <= other.top && other.bottom <= top;
