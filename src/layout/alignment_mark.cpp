@@ -9,8 +9,7 @@ LayoutCell alignment_mark(const std::string& name, std::int64_t size) {
         throw InputError("an alignment mark is too small to be drawn", "make it at least 20 nm");
     const std::int64_t low = -(size / 2), high = low + size;
     const std::int64_t arm = size / 5, arm_low = -(arm / 2), arm_high = arm_low + arm, apart = size / 20;
-    LayoutCell cell;
-    cell.name = name;
+    LayoutCell cell{.name = name};
     cell.add(mask_layers::back_marks, GridPolygon{{arm_low, low},
                                                   {arm_high, low},
                                                   {arm_high, arm_low},

@@ -12,8 +12,7 @@ namespace graze {
 namespace {
 
 LayoutCell flexure_cell(const DeviceDrawing& drawing, const std::string& name) {
-    LayoutCell cell;
-    cell.name = name;
+    LayoutCell cell{.name = name};
     cell.add_all(mask_layers::front, drawing.flexure.etched);
     cell.add_all(mask_layers::beams, drawing.flexure.beams);
     cell.add_all(mask_layers::trusses, drawing.flexure.trusses);
@@ -58,8 +57,7 @@ void add_device_cells(LayoutLibrary& library, const DeviceDrawing& drawing, cons
     library.cells.push_back(flexure_cell(drawing, flexure));
     if (d.mark_size > 0)
         library.cells.push_back(alignment_mark(mark, nanometres(d.mark_size)));
-    LayoutCell cell;
-    cell.name = "DEVICE" + ending;
+    LayoutCell cell{.name = "DEVICE" + ending};
     cell.add_all(mask_layers::back, drawing.chambers);
     cell.add_all(mask_layers::front, drawing.etched);
     cell.add(mask_layers::mass, drawing.mass);

@@ -1,8 +1,8 @@
 #include "graze/layout/device_drawing.hpp"
 
-#include "layout/box_sets.hpp"
 #include "layout/device_rules.hpp"
 #include "layout/grid_lengths.hpp"
+#include "layout/mask_outlines.hpp"
 
 #include <algorithm>
 
@@ -224,18 +224,10 @@ GridBox DeviceDrawing::in_device(const GridBox& box, bool in_lower) const {
     return in_lower ? GridBox{box.left, -box.top, box.right, -box.bottom}.moved(lower) : box.moved(upper);
 }
 
-std::vector<GridBox> DeviceDrawing::beams() const {
+std::vector<GridBox> DeviceDrawing::in_both(const std::vector<GridBox>& of_flexure) const {
     std::vector<GridBox> all;
     for (const bool in_lower : {false, true})
-        for (const GridBox& one : flexure.beams)
-            all.push_back(in_device(one, in_lower));
-    return all;
-}
-
-std::vector<GridBox> DeviceDrawing::trusses() const {
-    std::vector<GridBox> all;
-    for (const bool in_lower : {false, true})
-        for (const GridBox& one : flexure.trusses)
+        for (const GridBox& one : of_flexure)
             all.push_back(in_device(one, in_lower));
     return all;
 }

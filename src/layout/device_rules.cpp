@@ -15,23 +15,15 @@ namespace graze {
 
 namespace {
 
-class Requirements {
-public:
-    explicit Requirements(const DeviceFile& file) : file_(&file) {}
-
-    /// Throws unless a rule holds. @param key the dimension to change
-    void require(bool holds, const char* key, const std::string& problem, const std::string& remedy) const {
-        if (!holds)
-            throw InputError(file_->place(std::string("device.") + key), problem, remedy);
-    }
-
-private:
-    const DeviceFile* file_;
-};
+/// Throws unless a rule holds. @param key the dimension to change
+void require(const DeviceFile& file, bool holds, const char* key, const std::string& problem,
+             const std::string& remedy) {
+    if (!holds)
+        throw InputError(file.place(std::string("device.") + key), problem, remedy);
+}
 
 std::string text_at(GridPoint point) {
-    return fmt::format("({:.3f}, {:.3f}) um", static_cast<double>(point.x) / grid_per_micrometre,
-                       static_cast<double>(point.y) / grid_per_micrometre);
+    return fmt::format("({:.3f}, {:.3f}) um", micrometres(point.x), micrometres(point.y));
 }
 
 /// Name of the largest of several lengths, which is most likely the one to change.
@@ -70,15 +62,15 @@ double half_across_electrode(const DeviceDimensions& d) {
     return std::max(d.electrode_length, d.pad_width) / 2 + d.moat + d.chamber_margin;
 }
 
-void require_lengths(const Requirements& rules, const DeviceDimensions& d) {
+void require_lengths(const DeviceFile& file, const DeviceDimensions& d) {
     for (const LengthField<DeviceDimensions>& field : device_fields())
         try {
             length_on_grid(d.*field.member, std::string("device.") + field.name, field.may_be_zero);
         } catch (const InputError& error) {
-            rules.require(false, field.name, error.problem(), error.remedy());
+            require(file, false, field.name, error.problem(), error.remedy());
         }
-    rules.require(d.folds >= 1 && d.folds <= most_folds, "folds", fmt::format("device.folds is {}", d.folds),
-                  fmt::format("give a whole number from 1 to {}", most_folds));
+    require(file, d.folds >= 1 && d.folds <= most_folds, "folds", fmt::format("device.folds is {}", d.folds),
+            fmt::format("give a whole number from 1 to {}", most_folds));
 }
 
 /// Extent along y from the middle to the end of the chamber.
@@ -93,7 +85,7 @@ double sufficient_width(const DeviceDimensions& d) {
 }
 
 /// Checks extents along y.
-void require_width(const Requirements& rules, const DeviceDimensions& d) {
+void require_width(const DeviceFile& file, const DeviceDimensions& d) {
     const double half = d.mass_half_length();
     const double across = 2 * (half + d.clearance + d.chamber_margin + d.frame_width);
     const char* longest = name_of_greatest({{"flexure_length", 2 * d.flexure_length},
@@ -102,15 +94,14 @@ void require_width(const Requirements& rules, const DeviceDimensions& d) {
                                             {"clearance", 4 * d.clearance},
                                             {"chamber_margin", 2 * d.chamber_margin},
                                             {"frame_width", 2 * d.frame_width}});
-    rules.require(
-        fits(across, d.die_width), longest,
-        fmt::format("flexures of {} make a mass {} long, which with clearance, chamber and frame takes {} of "
-                    "a die {} wide",
-                    text_of(d.flexure_length), text_of(2 * half), text_of(across), text_of(d.die_width)),
-        fmt::format("give a smaller {}, or a die_width of at least {}", longest, text_of(sufficient_width(d))));
+    require(file, fits(across, d.die_width), longest,
+            fmt::format("flexures of {} make a mass {} long, which with clearance, chamber and frame takes {} of "
+                        "a die {} wide",
+                        text_of(d.flexure_length), text_of(2 * half), text_of(across), text_of(d.die_width)),
+            fmt::format("give a smaller {}, or a die_width of at least {}", longest, text_of(sufficient_width(d))));
     const double electrode = 2 * (half_across_electrode(d) + d.frame_width);
-    rules.require(
-        fits(electrode, d.die_width), d.pad_width > d.electrode_length ? "pad_width" : "electrode_length",
+    require(
+        file, fits(electrode, d.die_width), d.pad_width > d.electrode_length ? "pad_width" : "electrode_length",
         fmt::format("the fixed electrode with moat and frame takes {} of a die {} wide", text_of(electrode),
                     text_of(d.die_width)),
         fmt::format("give a smaller electrode and pad, or a die_width of at least {}", text_of(sufficient_width(d))));
@@ -118,7 +109,7 @@ void require_width(const Requirements& rules, const DeviceDimensions& d) {
 
 /// Length of the label, in micrometres.
 double written_length(const DeviceDimensions& d) {
-    return static_cast<double>(letters_width(label_of(d), nanometres(d.label_height))) / grid_per_micrometre;
+    return micrometres(letters_width(label_of(d), nanometres(d.label_height)));
 }
 
 /// Length of a die that holds its label, a mark and three edges.
@@ -127,7 +118,7 @@ double length_of_letters(const DeviceDimensions& d) {
 }
 
 /// Checks extents along x.
-void require_length(const Requirements& rules, const DeviceDimensions& d) {
+void require_length(const DeviceFile& file, const DeviceDimensions& d) {
     const double left = std::max(d.clearance, d.moat + d.pad_length + d.electrode_width + d.gap);
     const double length =
         left + 2 * d.bar_width + 2 * d.notch_half_width() + d.clearance + 2 * (d.chamber_margin + d.frame_width);
@@ -144,58 +135,56 @@ void require_length(const Requirements& rules, const DeviceDimensions& d) {
                                             {"chamber_margin", 2 * d.chamber_margin},
                                             {"frame_width", 2 * d.frame_width}});
     const double sufficient = std::max(length, length_of_letters(d));
-    rules.require(
-        fits(length, d.die_length), longest,
+    require(
+        file, fits(length, d.die_length), longest,
         fmt::format("device and frame, {} long, do not fit on a die {} long", text_of(length), text_of(d.die_length)),
         fmt::format("give a smaller {}, or a die_length of at least {}", longest, text_of(sufficient)));
 }
 
 /// Checks the parts that face the mass, or lie below the electrode.
-void require_parts(const Requirements& rules, const DeviceDimensions& d) {
+void require_parts(const DeviceFile& file, const DeviceDimensions& d) {
     const double length = 2 * d.mass_half_length();
-    rules.require(fits(d.electrode_length, length), "electrode_length",
-                  fmt::format("the fixed electrode, {} long, is longer than the mass of {}",
-                              text_of(d.electrode_length), text_of(length)),
-                  "give a shorter electrode, or longer flexures");
-    rules.require(d.stop_gap < d.clearance, "stop_gap",
-                  fmt::format("the stops do not reach out of the frame: stop_gap is {}, clearance {}",
-                              text_of(d.stop_gap), text_of(d.clearance)),
-                  "give a stop_gap less than clearance");
-    rules.require(fits(d.channel_width + 2 * d.stop_width, length), "channel_width",
-                  fmt::format("channel and stops take {}, the mass is {} long",
-                              text_of(d.channel_width + 2 * d.stop_width), text_of(length)),
-                  "give a narrower channel or stops, so that the stops face the mass");
-    rules.require(2 * d.base_inset < std::min(d.electrode_length, d.pad_width) && d.base_inset < d.electrode_width &&
-                      d.base_inset < d.pad_length,
-                  "base_inset",
-                  fmt::format("nothing is left of the electrode's base, set back by {}", text_of(d.base_inset)),
-                  "give a smaller base_inset, or a larger electrode and pad");
+    require(file, fits(d.electrode_length, length), "electrode_length",
+            fmt::format("the fixed electrode, {} long, is longer than the mass of {}", text_of(d.electrode_length),
+                        text_of(length)),
+            "give a shorter electrode, or longer flexures");
+    require(file, d.stop_gap < d.clearance, "stop_gap",
+            fmt::format("the stops do not reach out of the frame: stop_gap is {}, clearance {}", text_of(d.stop_gap),
+                        text_of(d.clearance)),
+            "give a stop_gap less than clearance");
+    require(file, fits(d.channel_width + 2 * d.stop_width, length), "channel_width",
+            fmt::format("channel and stops take {}, the mass is {} long", text_of(d.channel_width + 2 * d.stop_width),
+                        text_of(length)),
+            "give a narrower channel or stops, so that the stops face the mass");
+    require(file,
+            2 * d.base_inset < std::min(d.electrode_length, d.pad_width) && d.base_inset < d.electrode_width &&
+                d.base_inset < d.pad_length,
+            "base_inset", fmt::format("nothing is left of the electrode's base, set back by {}", text_of(d.base_inset)),
+            "give a smaller base_inset, or a larger electrode and pad");
 }
 
 /// Checks letters and marks, which lie in the strip between the chamber and the die's upper edge.
-void require_letters(const Requirements& rules, const DeviceDimensions& d) {
+void require_letters(const DeviceFile& file, const DeviceDimensions& d) {
     const double edge = d.frame_width / 4;
     const double strip = d.die_width / 2 - beyond_chamber(d) - 2 * edge;
-    rules.require(fits(d.mark_size, strip), "mark_size",
-                  fmt::format("an alignment mark of {} does not fit beside the chamber, where {} are free",
-                              text_of(d.mark_size), text_of(strip)),
-                  fmt::format("give a smaller mark_size, or a die_width of at least {}", text_of(sufficient_width(d))));
-    rules.require(d.mark_size == 0 || nanometres(d.mark_size) >= least_mark, "mark_size",
-                  fmt::format("a mark of {} is too small to be drawn", text_of(d.mark_size)),
-                  "give a greater mark_size, or 0 for none");
-    rules.require(
-        fits(d.label_height, strip), "label_height",
-        fmt::format("letters of {} do not fit beside the chamber, where {} are free", text_of(d.label_height),
-                    text_of(strip)),
-        fmt::format("give a smaller label_height, or a die_width of at least {}", text_of(sufficient_width(d))));
+    require(file, fits(d.mark_size, strip), "mark_size",
+            fmt::format("an alignment mark of {} does not fit beside the chamber, where {} are free",
+                        text_of(d.mark_size), text_of(strip)),
+            fmt::format("give a smaller mark_size, or a die_width of at least {}", text_of(sufficient_width(d))));
+    require(file, d.mark_size == 0 || nanometres(d.mark_size) >= least_mark, "mark_size",
+            fmt::format("a mark of {} is too small to be drawn", text_of(d.mark_size)),
+            "give a greater mark_size, or 0 for none");
+    require(file, fits(d.label_height, strip), "label_height",
+            fmt::format("letters of {} do not fit beside the chamber, where {} are free", text_of(d.label_height),
+                        text_of(strip)),
+            fmt::format("give a smaller label_height, or a die_width of at least {}", text_of(sufficient_width(d))));
     if (d.label_height == 0)
         return;
-    rules.require(nanometres(d.label_height) >= letter_rows, "label_height", "the letters are too small to be drawn",
-                  "give a greater label_height, or 0 for none");
-    rules.require(
-        fits(length_of_letters(d), d.die_length), "label_height",
-        fmt::format("'{}' is {} long, for which the die has no room", label_of(d), text_of(written_length(d))),
-        fmt::format("give a smaller label_height, or a die_length of at least {}", text_of(length_of_letters(d))));
+    require(file, nanometres(d.label_height) >= letter_rows, "label_height", "the letters are too small to be drawn",
+            "give a greater label_height, or 0 for none");
+    require(file, fits(length_of_letters(d), d.die_length), "label_height",
+            fmt::format("'{}' is {} long, for which the die has no room", label_of(d), text_of(written_length(d))),
+            fmt::format("give a smaller label_height, or a die_length of at least {}", text_of(length_of_letters(d))));
 }
 
 std::int64_t least_length(const DeviceDimensions& dimensions) {
@@ -249,12 +238,11 @@ std::int64_t edge_distance(const DeviceDimensions& dimensions) {
 }
 
 void require_drawable(const DeviceDimensions& dimensions, const DeviceFile& file) {
-    const Requirements rules(file);
-    require_lengths(rules, dimensions);
-    require_width(rules, dimensions);
-    require_parts(rules, dimensions);
-    require_length(rules, dimensions);
-    require_letters(rules, dimensions);
+    require_lengths(file, dimensions);
+    require_width(file, dimensions);
+    require_parts(file, dimensions);
+    require_length(file, dimensions);
+    require_letters(file, dimensions);
 }
 
 void require_well_drawn(const DeviceDrawing& drawing, const DeviceFile& file) {

@@ -48,47 +48,26 @@ std::optional<TripPoint> designed_trip(const TripPoint& drawn, const Design& des
     return moved_to(drawn, found.orbit);
 }
 
-/// The table that compares designed and drawn values.
-class Comparison {
-public:
-    void add(const std::string& name, double designed, double drawn, const std::string& unit, const std::string& text) {
-        table_.add(name);
-        table_.add(designed);
-        table_.add(drawn);
-        constexpr double percent = 100;
-        table_.add(designed != 0 ? percent * (drawn / designed - 1) : not_a_number);
-        table_.add(unit);
-        table_.add(text);
-    }
-    void add(const std::string& name, const std::string& designed, const std::string& drawn, const std::string& text) {
-        table_.add(name);
-        table_.add(designed);
-        table_.add(drawn);
-        table_.add(not_a_number);
-        table_.add("");
-        table_.add(text);
-    }
-    const Table& table() const { return table_; }
+/// Adds a row to the table that compares designed and drawn values.
+void add_row(Table& rows, const std::string& name, double designed, double drawn, const std::string& unit,
+             const std::string& text) {
+    constexpr double percent = 100;
+    rows.add(name, designed, drawn, designed != 0 ? percent * (drawn / designed - 1) : not_a_number, unit, text);
+}
 
-private:
-    Table table_{{{"quantity", ""}, {"designed", ""}, {"drawn", ""}, {"percent", ""}, {"unit", ""}, {"meaning", ""}}};
-};
-
-void add_quantities(Comparison& rows, const DesignedDevice& designed) {
+void add_quantities(Table& rows, const DesignedDevice& designed) {
     for (const MatchedQuantity& one : designed.matched.quantities)
-        rows.add(one.parameter, one.designed, one.drawn, one.unit,
-                 one.met ? fmt::format("by {} = {:.9g} {}", one.number, one.after, one.number_unit)
-                         : "not as designed: " + one.reason);
+        add_row(rows, one.parameter, one.designed, one.drawn, one.unit,
+                one.met ? fmt::format("by {} = {:.9g} {}", one.number, one.after, one.number_unit)
+                        : "not as designed: " + one.reason);
     // Chosen numbers that are not drawn, such as the drive's frequency.
     for (const DesignDimension& one : designed.own.dimensions) {
-        bool is_drawn = false;
-        for (const MatchedQuantity& quantity : designed.matched.quantities)
-            is_drawn = is_drawn || quantity.parameter == one.name;
-        if (is_drawn)
+        if (std::any_of(designed.matched.quantities.begin(), designed.matched.quantities.end(),
+                        [&](const MatchedQuantity& quantity) { return quantity.parameter == one.name; }))
             continue;
         const double value =
             designed.device.parameter_values()[designed.device.independent_parameter(one.name).place()];
-        rows.add(one.name, value, value, one.unit, "not drawn: as designed");
+        add_row(rows, one.name, value, value, one.unit, "not drawn: as designed");
     }
 }
 
@@ -107,7 +86,7 @@ bool has_what_is_wanted(const MetWishes& wishes) {
     return true;
 }
 
-void add_wants(Comparison& rows, const MetWishes& drawn, const std::optional<MetWishes>& designed) {
+void add_wants(Table& rows, const MetWishes& drawn, const std::optional<MetWishes>& designed) {
     for (std::size_t i = 0; i < drawn.found.wants.size(); ++i) {
         const Want& want = drawn.list.wants[i];
         const FoundWant& one = drawn.found.wants[i];
@@ -116,11 +95,11 @@ void add_wants(Comparison& rows, const MetWishes& drawn, const std::optional<Met
             for (std::size_t k = 0; k < designed->found.wants.size(); ++k)
                 if (designed->list.wants[k].name == want.name)
                     before = designed->found.wants[k].value.value_or(not_a_number);
-        rows.add("want_" + want.name, before, one.value.value_or(not_a_number), "", words_of(want, one));
+        add_row(rows, "want_" + want.name, before, one.value.value_or(not_a_number), "", words_of(want, one));
     }
 }
 
-void add_time(Comparison& rows, const Design& design, const TripPoint& drawn, const std::optional<TripPoint>& designed,
+void add_time(Table& rows, const Design& design, const TripPoint& drawn, const std::optional<TripPoint>& designed,
               const std::function<bool()>& interrupted) {
     TripRequest request = design.trip;
     if (!request.overshoots.empty())
@@ -132,9 +111,9 @@ void add_time(Comparison& rows, const Design& design, const TripPoint& drawn, co
     };
     const auto [time, overshoot] = time_of(drawn);
     if (std::isfinite(time))
-        rows.add(fmt::format("trip_time_{:.3g}", std::abs(overshoot)),
-                 designed ? time_of(*designed).first : not_a_number, time, drawn.system.model().time_unit,
-                 "at that overshoot");
+        add_row(rows, fmt::format("trip_time_{:.3g}", std::abs(overshoot)),
+                designed ? time_of(*designed).first : not_a_number, time, drawn.system.model().time_unit,
+                "at that overshoot");
 }
 
 } // namespace
@@ -155,20 +134,20 @@ std::optional<DrawnDesign> drawn_design(const DesignedDevice& designed, const st
     std::optional<MetWishes> wishes_before;
     if (before)
         wishes_before = with_place(found.approach.place, [&] { return wishes_at(found, *before, wishing); });
-    Comparison rows;
+    Table rows({{"quantity", ""}, {"designed", ""}, {"drawn", ""}, {"percent", ""}, {"unit", ""}, {"meaning", ""}});
     add_quantities(rows, designed);
     const Model& model = trip->system.model();
     const std::string unit = model.parameters[*model.find_parameter(designed.own.control)].unit;
     const GrazingOutcome outcome = class_at(*trip).outcome;
-    rows.add("trip_value", before ? before->value() : not_a_number, trip->value(), unit,
-             fmt::format("of {}, at {} of run '{}'", designed.own.control, trip->label, trip->run));
-    rows.add("class", before ? std::string(class_name(class_at(*before).outcome)) : "not found",
-             std::string(class_name(outcome)), "");
+    add_row(rows, "trip_value", before ? before->value() : not_a_number, trip->value(), unit,
+            fmt::format("of {}, at {} of run '{}'", designed.own.control, trip->label, trip->run));
+    rows.add("class", before ? class_name(class_at(*before).outcome) : "not found", class_name(outcome), not_a_number,
+             "", "");
     add_time(rows, designed.own, *trip, before, options.interrupted);
     add_wants(rows, wishes, wishes_before);
     if (options.interrupted && options.interrupted())
         return std::nullopt;
-    return DrawnDesign{rows.table(), designed.matched.is_met() && has_what_is_wanted(wishes)};
+    return DrawnDesign{std::move(rows), designed.matched.is_met() && has_what_is_wanted(wishes)};
 }
 
 ParameterFile solved_numbers(const DesignedDevice& designed) {

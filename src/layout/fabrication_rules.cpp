@@ -3,7 +3,7 @@
 #include "graze/base/input_errors.hpp"
 #include "layout/free_way.hpp"
 #include "layout/grid_lengths.hpp"
-#include "layout/mask_edges.hpp"
+#include "layout/mask_outlines.hpp"
 
 #include <fmt/format.h>
 
@@ -96,9 +96,7 @@ private:
     /// Name of the part of the front at a point.
     std::string part_at(GridPoint point) const {
         const auto has = [&](const std::vector<GridBox>& boxes) {
-            return std::any_of(boxes.begin(), boxes.end(), [&](const GridBox& box) {
-                return box.contains({point.x, point.y, point.x, point.y});
-            });
+            return std::any_of(boxes.begin(), boxes.end(), [&](const GridBox& box) { return box.contains(point); });
         };
         if (has(drawing_->beams()))
             return "a beam";
@@ -162,10 +160,9 @@ private:
         std::vector<Measured> places;
         for (const bool on_front : {true, false})
             for (const FacingEdges& place : on_front ? front_places_ : back_places_)
-                if (place.etched) {
+                if (place.etched)
                     places.push_back({depth_of(place, on_front) / micrometres(place.distance), part_of(place, on_front),
                                       place.middle()});
-                }
         add("largest_aspect", limits_->largest_aspect, "", false, std::move(places));
     }
 
@@ -229,9 +226,9 @@ private:
         if (is_etched_away())
             return;
         const LumpedModel lumped = lumped_model_of(*drawing_, *file_);
-        const GridPoint stop = bounding_middle(drawing_->stops.front());
+        const GridPoint stop = bounding_box(drawing_->stops.front()).middle();
         const GridBox beam = drawing_->beams().front();
-        const GridPoint at_beam{(beam.left + beam.right) / 2, beam.top};
+        const GridPoint at_beam{beam.middle().x, beam.top};
         add("largest_stop_share", limits_->largest_stop_share, "", false,
             {{lumped.stop / lumped.closure, "the stops, by the way until the electrodes touch", stop}});
         constexpr double mega = 1e6;
@@ -239,7 +236,7 @@ private:
             {{lumped.stress_per_travel * lumped.stop / mega, "a beam, when the mass is at the stops", at_beam},
              {lumped.stress_per_travel * lumped.closure / mega, "a beam, when the electrodes touch", at_beam}});
         add("largest_squeeze", limits_->largest_squeeze, "", false,
-            {{lumped.squeeze, "the gas between the electrodes", bounding_middle(drawing_->electrode)}});
+            {{lumped.squeeze, "the gas between the electrodes", bounding_box(drawing_->electrode).middle()}});
     }
 
     /// Adds the worst place in either direction, and all others where the mass is blocked.
@@ -265,17 +262,11 @@ private:
                                     .key = "device." + one.key,
                                     .remedy = fmt::format("give a greater {}, or a smaller {}: the model has no "
                                                           "contacts with other parts",
-                                                          one.key, to_stops ? "stop_gap" : "gap"),
-                                    .more = 0};
+                                                          one.key, to_stops ? "stop_gap" : "gap")};
                 if (!tell(std::move(finding), count))
                     break;
             }
         }
-    }
-
-    static GridPoint bounding_middle(const GridPolygon& polygon) {
-        const GridBox box = bounding_box(polygon);
-        return {(box.left + box.right) / 2, (box.bottom + box.top) / 2};
     }
 
     const DeviceFile* file_;

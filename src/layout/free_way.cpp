@@ -1,7 +1,7 @@
 #include "layout/free_way.hpp"
 
 #include "layout/grid_lengths.hpp"
-#include "layout/mask_edges.hpp"
+#include "layout/mask_outlines.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -120,7 +120,7 @@ private:
                 if (first && way >= first->way)
                     continue;
                 const GridPoint at{(a.at + b.at) / 2, (low + high) / 2};
-                const bool in_notch = is_in_notch(at);
+                const bool in_notch = is_in(drawing_->flexure.notch, at);
                 first =
                     FreeWay{.way = way,
                             .needed = 0,
@@ -132,18 +132,15 @@ private:
         return first;
     }
 
-    bool is_in_notch(GridPoint at) const {
-        const GridBox point{at.x, at.y, at.x, at.y}, notch = drawing_->flexure.notch;
-        return drawing_->in_device(notch, false).contains(point) || drawing_->in_device(notch, true).contains(point);
+    /// Whether a point is in either place of a box of the flexures.
+    bool is_in(const GridBox& box, GridPoint at) const {
+        return drawing_->in_device(box, false).contains(at) || drawing_->in_device(box, true).contains(at);
     }
 
     /// Within the notches the frame's finger and the mass's lugs are at the same y.
     std::string name_of(const SweptPart& part, bool in_notch, GridPoint at, std::int64_t face) const {
         const FlexureDrawing& flexure = drawing_->flexure;
-        const auto has = [&](const GridBox& box) {
-            const GridBox point{face, at.y, face, at.y};
-            return drawing_->in_device(box, false).contains(point) || drawing_->in_device(box, true).contains(point);
-        };
+        const auto has = [&](const GridBox& box) { return is_in(box, {face, at.y}); };
         if (in_notch && part.share == 0 && has(flexure.finger))
             return "the frame's finger";
         if (in_notch && part.share == 1 && std::any_of(flexure.lugs.begin(), flexure.lugs.end(), has))

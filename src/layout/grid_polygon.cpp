@@ -58,15 +58,19 @@ GridBox bounding_box(std::span<const GridPoint> corners) {
     return box;
 }
 
-double area_of(std::span<const GridPoint> corners) {
+std::int64_t twice_area(std::span<const GridPoint> corners) {
     // Unsigned sums may wrap, but twice an area within two metres square fits, so the result is exact.
     std::uint64_t twice = 0;
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const GridPoint &a = corners[i], &b = corners[(i + 1) % corners.size()];
         twice += static_cast<std::uint64_t>(a.x - b.x) * static_cast<std::uint64_t>(a.y + b.y);
     }
+    return static_cast<std::int64_t>(twice);
+}
+
+double area_of(std::span<const GridPoint> corners) {
     constexpr double square_nanometres = 1e6; // per square micrometre
-    return std::abs(static_cast<double>(static_cast<std::int64_t>(twice))) / 2 / square_nanometres;
+    return std::abs(static_cast<double>(twice_area(corners))) / 2 / square_nanometres;
 }
 
 double total_area(std::span<const GridPolygon> polygons) {

@@ -11,10 +11,6 @@ namespace graze {
 
 namespace {
 
-bool is_on_mask(MaskLayer layer, int mask) {
-    return layer.layer == mask;
-}
-
 void append_mask(LayoutLibrary& to, const Layout& layout, int mask) {
     if (mask != 1 && mask != 2)
         throw InputError(fmt::format("there is no mask {}", mask), "choose mask 1 or 2");
@@ -22,10 +18,9 @@ void append_mask(LayoutLibrary& to, const Layout& layout, int mask) {
     std::string top;
     std::set<std::string, std::less<>> kept;
     for (const LayoutCell& cell : layout.library.cells) {
-        LayoutCell one;
-        one.name = cell.name + ending;
+        LayoutCell one{.name = cell.name + ending};
         for (const CellShape& shape : cell.shapes)
-            if (is_on_mask(shape.layer, mask))
+            if (shape.layer.layer == mask)
                 one.shapes.push_back(shape);
         for (CellReference reference : cell.references) {
             reference.cell += ending;
@@ -39,12 +34,9 @@ void append_mask(LayoutLibrary& to, const Layout& layout, int mask) {
             to.cells.push_back(std::move(one));
         }
     }
-    LayoutCell plate;
-    plate.name = fmt::format("MASK_{}", mask);
     constexpr double half_turn = 180; // turns y -> -y into x -> -x
     const bool back = mask == 1;
-    plate.references.push_back({top, {}, back, back ? half_turn : 0});
-    to.cells.push_back(std::move(plate));
+    to.cells.push_back({.name = fmt::format("MASK_{}", mask), .references = {{top, {}, back, back ? half_turn : 0}}});
 }
 
 } // namespace
@@ -66,8 +58,7 @@ void add_masks(Layout& layout) {
 }
 
 LayoutLibrary mask_library(const Layout& layout, int mask) {
-    LayoutLibrary alone;
-    alone.name = layout.library.name;
+    LayoutLibrary alone{.name = layout.library.name};
     append_mask(alone, layout, mask);
     return alone;
 }

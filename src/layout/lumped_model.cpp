@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 namespace graze {
 
@@ -119,6 +120,20 @@ private:
     double depth_, chamber_; // um
 };
 
+/// Place to report when the etch removes a part: a number given beside the file, else the etch, else the largest
+/// contribution.
+Place place_of_etch(const DeviceFile& file) {
+    const double by_taper = file.conditions.wall().slope * file.process.layer_thickness();
+    const bool tapered = std::abs(by_taper) > std::abs(file.conditions.bias);
+    for (const char* key : {tapered ? "process.taper" : "process.bias", tapered ? "process.bias" : "process.taper"})
+        if (const Place place = file.place(key); is_given_place(place))
+            return place;
+    for (const auto& [key, place] : file.places)
+        if (is_given_place(place))
+            return place;
+    return file.place(tapered ? "process.taper" : "process.bias");
+}
+
 } // namespace
 
 double LumpedModel::frequency() const {
@@ -159,24 +174,6 @@ LumpedModel lumped_model_of(const DeviceFile& file) {
     return lumped_model_of(draw_device(file), file);
 }
 
-namespace {
-
-/// Place to report when the etch removes a part: a number given beside the file, else the etch, else the largest
-/// contribution.
-Place place_of_etch(const DeviceFile& file) {
-    const double by_taper = file.conditions.wall().slope * file.process.layer_thickness();
-    const bool tapered = std::abs(by_taper) > std::abs(file.conditions.bias);
-    for (const char* key : {tapered ? "process.taper" : "process.bias", tapered ? "process.bias" : "process.taper"})
-        if (const Place place = file.place(key); is_given_place(place))
-            return place;
-    for (const auto& [key, place] : file.places)
-        if (is_given_place(place))
-            return place;
-    return file.place(tapered ? "process.taper" : "process.bias");
-}
-
-} // namespace
-
 LumpedModel lumped_model_of(const DeviceDrawing& drawing, const DeviceFile& file) {
     try {
         return lumped_model_of(drawing, file.process, file.conditions);
@@ -192,29 +189,23 @@ Model model_of(const DeviceFile& file) {
 }
 
 ParameterFile parameters_of(const LumpedModel& lumped, const Model& model) {
-    struct Named {
-        const char* name;
-        const char* unit;
-        double value;
-    };
-    const Named all[] = {
+    const std::tuple<const char*, const char*, double> all[] = {
         {"m", "kg", lumped.mass},     {"f0", "Hz", lumped.frequency()}, {"zeta", "", lumped.damping_ratio()},
         {"area", "m^2", lumped.area}, {"d", "m", lumped.gap},           {"stop", "m", lumped.stop}};
     ParameterFile file;
     file.model = model.name;
-    for (const Named& one : all) {
-        const auto place = model.find_parameter(one.name);
+    for (const auto& [name, unit, value] : all) {
+        const auto place = model.find_parameter(name);
         if (!place || model.parameters[*place].expression)
-            throw InputError(fmt::format("the model {} has no parameter '{}' to be set", model.name, one.name),
+            throw InputError(fmt::format("the model {} has no parameter '{}' to be set", model.name, name),
                              "name a model of a switch with m, f0, zeta, area, d and stop, as mems-switch-device");
-        try {
-            file.set.emplace_back(
-                one.name, converted(one.value, physical_unit(one.unit), physical_unit(model.parameters[*place].unit)));
-        } catch (const InputError& error) {
-            throw InputError(fmt::format("'{}' of the model {} has the unit '{}': {}", one.name, model.name,
-                                         model.parameters[*place].unit, error.problem()),
-                             error.remedy());
-        }
+        const std::string& wanted = model.parameters[*place].unit;
+        const auto convert = [&, from = unit, number = value] {
+            return converted(number, physical_unit(from), physical_unit(wanted));
+        };
+        file.set.emplace_back(
+            name,
+            with_place({}, convert, fmt::format("'{}' of the model {} has the unit '{}': ", name, model.name, wanted)));
     }
     return file;
 }

@@ -7,10 +7,7 @@ namespace graze {
 void add_lumped_rows(Table& table, const DeviceFile& file, const DrawnDevice& device) {
     const LumpedModel lumped = lumped_model_of(device.drawing, file);
     const auto add = [&](const char* what, double value, const char* unit) {
-        table.add(device.cell);
-        table.add(what);
-        table.add(value);
-        table.add(unit);
+        table.add(device.cell, what, value, unit);
     };
     constexpr double micro = 1e-6, nano = 1e-9, mega = 1e6;
     add("model: mass", lumped.mass / nano, "ug");

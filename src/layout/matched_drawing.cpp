@@ -209,10 +209,6 @@ private:
 
 } // namespace
 
-double MatchedQuantity::relative() const {
-    return drawn / designed - 1;
-}
-
 bool MatchedDrawing::is_met() const {
     return std::all_of(quantities.begin(), quantities.end(), [](const MatchedQuantity& one) { return one.met; });
 }

@@ -1,11 +1,13 @@
 #include "graze/layout/process_steps.hpp"
 
 #include "graze/base/require.hpp"
+#include "layout/grid_lengths.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 namespace graze {
 
@@ -73,14 +75,12 @@ public:
     CrossSection(const DeviceFile& file, const Layout& layout, double y)
         : file_(&file), film_(file.process.wafer_thickness * film) {
         const GridBox& die = layout.devices.front().drawing.die;
-        whole_ = {static_cast<double>(die.left) / grid_per_micrometre,
-                  static_cast<double>(die.right) / grid_per_micrometre};
+        whole_ = {micrometres(die.left), micrometres(die.right)};
         std::vector<GridPolygon> back, front;
         for (PlacedShape& shape : flattened(layout.library, layout.top)) {
             if (shape.layer == mask_layers::front_marks) {
                 const GridBox box = bounding_box(shape.polygon);
-                marks_.push_back({static_cast<double>(box.left) / grid_per_micrometre,
-                                  static_cast<double>(box.right) / grid_per_micrometre});
+                marks_.push_back({micrometres(box.left), micrometres(box.right)});
             }
             if (shape.layer == mask_layers::back)
                 back.push_back(std::move(shape.polygon));
@@ -92,55 +92,44 @@ public:
         marks_ = joined(std::move(marks_));
     }
 
-    std::vector<ProcessStep> steps() {
+    std::vector<ProcessStep> steps() const {
+        constexpr ProcessMaterial resist = ProcessMaterial::resist, aluminium = ProcessMaterial::aluminium;
         const double front = file_->process.wafer_thickness;
-        const Intervals all{whole_};
-        step("1  resist on the back, opened by mask 1").add(wafer(all));
-        last().add(film_of(ProcessMaterial::resist, outside_of(chambers_, whole_), -film_, 0));
-        step(fmt::format("2  chambers are etched, {:g} µm deep", file_->process.chamber_depth)).add(carved(all));
-        last().add(film_of(ProcessMaterial::resist, outside_of(chambers_, whole_), -film_, 0));
-        step("3  the resist is stripped").add(carved(all));
-        step("4  resist on the front, opened at marks of mask 2").add(carved(all));
-        last().add(film_of(ProcessMaterial::resist, outside_of(marks_, whole_), front, front + film_));
-        step("5  aluminium is sputtered, and lifted off but for the marks").add(carved(all));
-        last().add(film_of(ProcessMaterial::aluminium, marks_, front, front + film_ / 2));
-        step("6  epoxy on a second wafer").add(base());
-        step("7  the wafers are bonded").add(base()).add(carved(all));
-        last().add(film_of(ProcessMaterial::aluminium, marks_, front, front + film_ / 2));
-        const Intervals kept = outside_of(etched_, whole_);
-        step("8  resist opened by mask 2; developer takes the marks").add(base()).add(carved(all));
-        last().add(film_of(ProcessMaterial::resist, kept, front, front + film_));
-        step("9  silicon is etched through, to the epoxy").add(base()).add(carved(kept));
-        last().add(film_of(ProcessMaterial::resist, kept, front, front + film_));
-        step("10  the resist is stripped").add(base()).add(carved(kept));
-        step("11  aluminium on all that is seen from the front").add(base()).add(carved(kept)).add(coat(kept));
-        return std::move(steps_);
+        const Intervals all{whole_}, kept = outside_of(etched_, whole_);
+        const Slabs whole = film_of(ProcessMaterial::silicon, all, 0, front), with_chambers = carved(all),
+                    through = carved(kept), below = base();
+        const Slabs on_back = film_of(resist, outside_of(chambers_, whole_), -film_, 0),
+                    around_marks = film_of(resist, outside_of(marks_, whole_), front, front + film_),
+                    on_kept = film_of(resist, kept, front, front + film_),
+                    marks = film_of(aluminium, marks_, front, front + film_ / 2);
+        return {{"1  resist on the back, opened by mask 1", together({whole, on_back})},
+                {fmt::format("2  chambers are etched, {:g} µm deep", file_->process.chamber_depth),
+                 together({with_chambers, on_back})},
+                {"3  the resist is stripped", with_chambers},
+                {"4  resist on the front, opened at marks of mask 2", together({with_chambers, around_marks})},
+                {"5  aluminium is sputtered, and lifted off but for the marks", together({with_chambers, marks})},
+                {"6  epoxy on a second wafer", below},
+                {"7  the wafers are bonded", together({below, with_chambers, marks})},
+                {"8  resist opened by mask 2; developer takes the marks", together({below, with_chambers, on_kept})},
+                {"9  silicon is etched through, to the epoxy", together({below, through, on_kept})},
+                {"10  the resist is stripped", together({below, through})},
+                {"11  aluminium on all that is seen from the front", together({below, through, coat(kept)})}};
     }
 
 private:
     using Slabs = std::vector<ProcessSlab>;
-    /// Adds slabs to a step.
-    struct StepWriter {
-        ProcessStep* step;
-        StepWriter& add(const Slabs& slabs) {
-            step->slabs.insert(step->slabs.end(), slabs.begin(), slabs.end());
-            return *this;
-        }
-    };
-    StepWriter step(std::string text) {
-        steps_.push_back({std::move(text), {}});
-        return last();
-    }
-    StepWriter last() { return {&steps_.back()}; }
 
+    static Slabs together(std::initializer_list<Slabs> parts) {
+        Slabs all;
+        for (const Slabs& part : parts)
+            all.insert(all.end(), part.begin(), part.end());
+        return all;
+    }
     static Slabs film_of(ProcessMaterial material, const Intervals& intervals, double low, double high) {
         Slabs slabs;
         for (const Interval& one : intervals)
             slabs.push_back({material, one.left, one.right, low, high});
         return slabs;
-    }
-    Slabs wafer(const Intervals& intervals) const {
-        return film_of(ProcessMaterial::silicon, intervals, 0, file_->process.wafer_thickness);
     }
     /// The device wafer with its chambers, where it remains.
     Slabs carved(const Intervals& left) const {
@@ -167,9 +156,8 @@ private:
     /// Metal on the front, on the walls, and on epoxy that is visible from the front, but not below overhangs.
     Slabs coat(const Intervals& kept) const {
         const double front = file_->process.wafer_thickness, metal = film_ / 2;
-        Slabs slabs = film_of(ProcessMaterial::aluminium, kept, front, front + metal);
-        const Slabs floors = film_of(ProcessMaterial::aluminium, outside_of(kept, whole_), 0, metal);
-        slabs.insert(slabs.end(), floors.begin(), floors.end());
+        Slabs slabs = together({film_of(ProcessMaterial::aluminium, kept, front, front + metal),
+                                film_of(ProcessMaterial::aluminium, outside_of(kept, whole_), 0, metal)});
         constexpr double beside_wall = 1e-3;
         for (const Interval& one : kept) {
             const double of_wall = std::min(metal, (one.right - one.left) / 4);
@@ -188,7 +176,6 @@ private:
     double film_;
     Interval whole_{};
     Intervals chambers_, etched_, marks_;
-    std::vector<ProcessStep> steps_;
 };
 
 } // namespace

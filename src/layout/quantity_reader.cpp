@@ -79,10 +79,4 @@ double read_quantity(const StudyReader& reader, const TomlEntry& entry, const ch
                             reader.inside(entry), units);
 }
 
-void require_within(double value, const std::string& what, const char* unit, double least, double greatest) {
-    if (!(value >= least && value <= greatest))
-        throw InputError(fmt::format("{} is {:.6g}{}{}", what, value, *unit ? " " : "", unit),
-                         fmt::format("give a number from {} to {}", least, greatest));
-}
-
 } // namespace graze

@@ -1,11 +1,11 @@
 #include "graze/layout/rule_markers.hpp"
 
 #include "graze/base/xml_text.hpp"
+#include "layout/grid_lengths.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <vector>
+#include <set>
 
 namespace graze {
 
@@ -24,15 +24,8 @@ std::string quoted_word(const std::string& text) {
     return result + "'";
 }
 
-std::vector<std::string> distinct(std::vector<std::string> names) {
-    std::sort(names.begin(), names.end());
-    names.erase(std::unique(names.begin(), names.end()), names.end());
-    return names;
-}
-
 std::string item_of(const RuleFinding& finding) {
-    const double x = static_cast<double>(finding.at.x) / grid_per_micrometre,
-                 y = static_cast<double>(finding.at.y) / grid_per_micrometre;
+    const double x = micrometres(finding.at.x), y = micrometres(finding.at.y);
     return fmt::format("  <item>\n   <tags/>\n   <category>{}</category>\n   <cell>{}</cell>\n"
                        "   <visited>false</visited>\n   <multiplicity>1</multiplicity>\n   <comment/>\n   <image/>\n"
                        "   <values>\n    <value>box: ({:.12g},{:.12g};{:.12g},{:.12g})</value>\n"
@@ -44,24 +37,24 @@ std::string item_of(const RuleFinding& finding) {
 } // namespace
 
 std::string rule_markers(std::span<const RuleFinding> findings, const std::string& top, const std::string& generator) {
-    std::vector<std::string> rules, cells{top};
+    std::set<std::string> rules, cells{top};
     std::string items;
     for (const RuleFinding& one : findings)
         if (!one.holds()) {
-            rules.push_back(one.rule);
-            cells.push_back(one.device);
+            rules.insert(one.rule);
+            cells.insert(one.device);
             items += item_of(one);
         }
     std::string text = fmt::format("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<report-database>\n"
                                    " <description>Places that break a rule</description>\n <original-file/>\n"
                                    " <generator>{}</generator>\n <top-cell>{}</top-cell>\n <tags/>\n <categories>\n",
                                    xml_text(generator), xml_text(top));
-    for (const std::string& rule : distinct(rules))
+    for (const std::string& rule : rules)
         text += fmt::format("  <category>\n   <name>{}</name>\n   <description>{}</description>\n   <categories/>\n"
                             "  </category>\n",
                             xml_text(rule), xml_text(rule));
     text += " </categories>\n <cells>\n";
-    for (const std::string& cell : distinct(cells))
+    for (const std::string& cell : cells)
         text += fmt::format("  <cell>\n   <name>{}</name>\n   <variant/>\n   <layout-name/>\n   <references/>\n"
                             "  </cell>\n",
                             xml_text(cell));

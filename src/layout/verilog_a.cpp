@@ -1,12 +1,13 @@
 #include "graze/layout/verilog_a.hpp"
 
 #include "base/special_numbers.hpp"
-#include "graze/base/input_error.hpp"
 #include "graze/base/physical_unit.hpp"
+#include "graze/base/with_place.hpp"
 #include "graze/layout/lumped_model.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <optional>
@@ -48,14 +49,11 @@ double value_of(const Model& model, const ModuleParameter& one) {
         throw InputError(fmt::format("the model {} has no parameter '{}'", model.name, one.name),
                          "name a model of a switch with m, f0, zeta, area, d, stop and e, as mems-switch-device");
     const Parameter& parameter = model.parameters[*place];
-    double value = *parameter.value;
-    try {
-        value = converted(value, physical_unit(parameter.unit), physical_unit(one.unit));
-    } catch (const InputError& error) {
-        throw InputError(fmt::format("'{}' of the model {} has the unit '{}': {}", one.name, model.name, parameter.unit,
-                                     error.problem()),
-                         error.remedy());
-    }
+    const auto convert = [&] {
+        return converted(*parameter.value, physical_unit(parameter.unit), physical_unit(one.unit));
+    };
+    const double value = with_place(
+        {}, convert, fmt::format("'{}' of the model {} has the unit '{}': ", one.name, model.name, parameter.unit));
     if (!(value > one.least || (one.may_be_least && value == one.least)) || !(value <= one.most && value < infinity))
         throw InputError(fmt::format("'{}' of the model {} is {:.6g} {}", one.name, model.name, value, one.unit),
                          fmt::format("give a value within {}", one.range));
@@ -104,10 +102,8 @@ endmodule
 } // namespace
 
 bool has_verilog_a(const Model& model) {
-    for (const ModuleParameter& one : circuit_parameters)
-        if (!find_independent(model, one.name))
-            return false;
-    return true;
+    return std::all_of(circuit_parameters.begin(), circuit_parameters.end(),
+                       [&](const ModuleParameter& one) { return find_independent(model, one.name).has_value(); });
 }
 
 std::string verilog_a_text(const Model& model, const std::string& name, const std::string& generator) {

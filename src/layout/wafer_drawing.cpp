@@ -217,9 +217,8 @@ private:
     void add_site(std::size_t i) {
         const DeviceDrawing& device = device_at(i);
         const DeviceDimensions& d = device.dimensions;
-        LayoutCell site;
-        site.name = fmt::format("SITE_{}", i + 1);
-        site.references.push_back({layout_.devices[layout_.sites[i]].cell, {}, false, 0});
+        LayoutCell site{.name = fmt::format("SITE_{}", i + 1),
+                        .references = {{layout_.devices[layout_.sites[i]].cell, {}, false, 0}}};
         if (const GridBox channel = channel_of(device, 0); channel.width() > 0) {
             add_channel(site, mask_layers::front, i, channel);
             add_channel(site, mask_layers::back, i, channel_of(device, nanometres(d.chamber_margin)));
@@ -232,8 +231,7 @@ private:
     }
 
     void add_wafer() {
-        LayoutCell wafer;
-        wafer.name = "WAFER";
+        LayoutCell wafer{.name = "WAFER"};
         for (std::size_t i = 0; i < dies_.size(); ++i) {
             add_site(i);
             wafer.references.push_back({fmt::format("SITE_{}", i + 1), centres_[i], false, layout_.site_degrees[i]});

@@ -18,21 +18,7 @@ std::string unit_of(const Model& model, const std::string& parameter) {
     return place ? model.parameters[*place].unit : "";
 }
 
-class WaferFacts {
-public:
-    void add(const std::string& name, double value, const std::string& unit, const std::string& meaning) {
-        table_.add(name);
-        table_.add(value);
-        table_.add(unit);
-        table_.add(meaning);
-    }
-    Table table() { return std::move(table_); }
-
-private:
-    Table table_{{{"quantity", ""}, {"value", ""}, {"unit", ""}, {"meaning", ""}}};
-};
-
-void add_times(WaferFacts& facts, const WaferYield& yield, const std::string& unit) {
+void add_times(Table& facts, const WaferYield& yield, const std::string& unit) {
     std::vector<double> times;
     for (const WaferDevice& device : yield.devices)
         if (device.trip_time)
@@ -77,10 +63,7 @@ Table wafer_device_table(const WaferYield& yield, const Layout& wafer, const Mod
     columns.push_back({"drawn_folds", ""});
     Table table(columns);
     for (const WaferDevice& device : yield.devices) {
-        table.add(static_cast<double>(device.wafer));
-        table.add(static_cast<double>(device.site));
-        table.add(device.place.x);
-        table.add(device.place.y);
+        table.add(static_cast<double>(device.wafer), static_cast<double>(device.site), device.place.x, device.place.y);
         for (const DepartureField& field : departure_fields())
             table.add(device.departure.*field.departure);
         if (device.lumped)
@@ -89,15 +72,8 @@ Table wafer_device_table(const WaferYield& yield, const Layout& wafer, const Mod
         else
             for (std::size_t i = 0; i < names.size(); ++i)
                 table.add(not_a_number);
-        if (device.outcome == DeviceOutcome::found)
-            table.add(device.value);
-        else
-            table.add(not_a_number);
-        table.add(outcome_of(device));
-        if (device.trip_time)
-            table.add(*device.trip_time);
-        else
-            table.add(not_a_number);
+        table.add(device.outcome == DeviceOutcome::found ? device.value : not_a_number, outcome_of(device),
+                  device.trip_time.value_or(not_a_number));
         const DeviceDimensions& drawn = wafer.devices[wafer.sites[device.site - 1]].drawing.dimensions;
         for (const auto& field : device_fields())
             table.add(drawn.*field.member);
@@ -109,7 +85,7 @@ Table wafer_device_table(const WaferYield& yield, const Layout& wafer, const Mod
 Table wafer_fact_table(const WaferYield& found, const Model& model, const std::string& control, std::size_t wafers) {
     const Yield& yield = found.yield;
     const std::string unit = unit_of(model, control);
-    WaferFacts facts;
+    Table facts({{"quantity", ""}, {"value", ""}, {"unit", ""}, {"meaning", ""}});
     facts.add("nominal", yield.nominal, unit, fmt::format("{} at which the drawn device trips", control));
     facts.add("wafers", static_cast<double>(wafers), "", "");
     facts.add("devices", static_cast<double>(yield.made), "", "on all wafers");
@@ -130,7 +106,7 @@ Table wafer_fact_table(const WaferYield& found, const Model& model, const std::s
     if (yield.within)
         facts.add("yield", yield.within->value, "", "share of all devices within what is wanted");
     add_times(facts, found, model.time_unit);
-    return facts.table();
+    return facts;
 }
 
 } // namespace graze

@@ -1,5 +1,4 @@
 #include "base/special_numbers.hpp"
-#include "picture/drawn_labels.hpp"
 #include "picture/picture_kinds.hpp"
 
 #include <fmt/format.h>
@@ -12,34 +11,13 @@ namespace graze {
 
 namespace {
 
-/// Distinguishes attractors by their kind. Orbits and equilibria, which Newton's method has computed to many digits,
-/// are distinguished also by the mean, least and greatest of every value, which do not depend on the first point of an
-/// orbit.
-class AttractorNames {
-public:
-    /// Index of an attractor, a new one if it is not known yet.
-    /// @param marks mean, least and greatest of each value along the orbit; @param spreads ranges of the values
-    std::size_t index(const std::string& kind, const std::vector<double>& marks, const std::vector<double>& spreads) {
-        constexpr double same_orbit = 1e-6;
-        for (std::size_t i = 0; i < known_.size(); ++i) {
-            bool same = known_[i].kind == kind;
-            for (std::size_t v = 0; same && v < marks.size(); ++v)
-                same = std::abs(marks[v] - known_[i].marks[v]) <= same_orbit * spreads[v / 3];
-            if (same)
-                return i;
-        }
-        known_.push_back({kind, marks});
-        return known_.size() - 1;
-    }
-    const std::string& kind(std::size_t index) const { return known_[index].kind; }
-    std::size_t count() const { return known_.size(); }
-
-private:
-    struct Known {
-        std::string kind;
-        std::vector<double> marks;
-    };
-    std::vector<Known> known_;
+/// Attractors are distinguished by their kind. Orbits and equilibria, which Newton's method has computed to many
+/// digits, are distinguished also by the mean, least and greatest of every value, which do not depend on the first
+/// point of an orbit.
+struct KnownAttractor {
+    std::string kind;
+    std::vector<double> marks;              ///< mean, least and greatest of each value along the orbit
+    std::optional<std::size_t> first_point; ///< its number, if Newton's method has computed it
 };
 
 std::string kind_text(const ResultFile::Rows& row) {
@@ -113,15 +91,11 @@ void fill_cells(FigurePanel& panel) {
     }
 }
 
-} // namespace
-
-namespace {
-
 /// Draws one direction of a run.
 class BasinPanel {
 public:
-    BasinPanel(const StudyPicture& picture, const StoredRun& run, bool map)
-        : picture_(&picture), run_(&run), map_(map), x_(first_coordinate(picture, run)),
+    BasinPanel(const StudyPicture& picture, const StoredRun& run)
+        : picture_(&picture), run_(&run), map_(picture.kind == "map"), x_(first_coordinate(picture, run)),
           y_(picture.y.empty() ? run.record.coordinates[1].name : picture.y.front()) {}
 
     FigurePanel drawn(const std::string& direction, Table& table) {
@@ -132,13 +106,14 @@ public:
                                 .statistics = map_ ? std::vector<std::string>{} : run_->value_names(),
                                 .directions = {direction}});
         while (rows.next()) {
-            std::vector<double> marks(map_ ? 0 : 3 * run_->record.values.size());
-            const bool distinguished =
-                rows.text(0) == name_of(Label::periodic) || rows.text(0) == name_of(Label::equilibrium);
-            for (std::size_t v = 0; distinguished && v < marks.size(); ++v)
-                marks[v] = rows.number(7 + v);
-            add(names_.index(map_ ? short_kind(rows) : kind_text(rows), marks, spreads), rows.text(0),
-                {rows.number(5), rows.number(6)}, static_cast<std::size_t>(rows.integer(4)), distinguished);
+            KnownAttractor one{map_ ? short_kind(rows) : kind_text(rows), {}, {}};
+            one.marks.resize(map_ ? 0 : 3 * run_->record.values.size());
+            if (rows.text(0) == name_of(Label::periodic) || rows.text(0) == name_of(Label::equilibrium)) {
+                one.first_point = static_cast<std::size_t>(rows.integer(4));
+                for (std::size_t v = 0; v < one.marks.size(); ++v)
+                    one.marks[v] = rows.number(7 + v);
+            }
+            series_of(std::move(one), rows.text(0), spreads).points.push_back({rows.number(5), rows.number(6)});
         }
         name_all(table);
         fill_cells(panel_);
@@ -165,33 +140,29 @@ private:
         return spreads;
     }
 
-    void add(std::size_t index, const std::string& label, const PlanePoint& at, std::size_t number,
-             bool distinguished) {
-        if (index >= panel_.series.size()) {
-            const bool settled = drawn_as(label) == DrawnAs::attractor;
-            FigureSeries series{"", FigureSeries::Style::dots, attractors_, {}};
-            if (!settled) { // symbol and hatch show that it is no attractor, and its label
-                const MarkOfLabel mark = mark_of_label(label);
-                series.style = FigureSeries::Style::symbols;
-                series.colour = mark.colour;
-                series.symbol = mark.symbol;
-                series.hatch = mark.hatch;
-            }
-            attractors_ += settled ? 1 : 0;
-            panel_.series.push_back(std::move(series));
-            first_points_.push_back(distinguished ? std::optional(number) : std::nullopt);
+    /// The series of an attractor, a new one if it is not known yet. @param spreads ranges of the values
+    FigureSeries& series_of(KnownAttractor one, const std::string& label, const std::vector<double>& spreads) {
+        constexpr double same_orbit = 1e-6;
+        for (std::size_t i = 0; i < known_.size(); ++i) {
+            bool same = known_[i].kind == one.kind;
+            for (std::size_t v = 0; same && v < one.marks.size(); ++v)
+                same = std::abs(one.marks[v] - known_[i].marks[v]) <= same_orbit * spreads[v / 3];
+            if (same)
+                return panel_.series[i];
         }
-        panel_.series[index].points.push_back(at);
+        known_.push_back(std::move(one));
+        const bool settled = drawn_as(label) == DrawnAs::attractor;
+        // The symbol and hatch of others show that they are no attractors, and their label.
+        panel_.series.push_back(settled ? FigureSeries{.colour = attractors_} : series_of_label(label));
+        attractors_ += settled ? 1 : 0;
+        return panel_.series.back();
     }
 
     void name_all(Table& table) {
         for (std::size_t i = 0; i < panel_.series.size(); ++i) {
-            const std::string kind = names_.kind(i);
             const std::size_t count = panel_.series[i].points.size();
-            panel_.series[i].title = fmt::format("{} ({})", shown_name(*picture_, kind), count);
-            table.add(static_cast<double>(i + 1));
-            table.add(kind);
-            table.add(static_cast<double>(count));
+            panel_.series[i].title = fmt::format("{} ({})", shown_name(*picture_, known_[i].kind), count);
+            table.add(static_cast<double>(i + 1), known_[i].kind, static_cast<double>(count));
         }
     }
 
@@ -199,17 +170,16 @@ private:
     void mark_attractors() {
         if (!run_->has_value(x_) || !run_->has_value(y_))
             return;
-        const std::size_t kinds = first_points_.size();
-        for (std::size_t i = 0; i < kinds; ++i) {
-            if (!first_points_[i])
+        for (std::size_t i = 0; i < known_.size(); ++i) {
+            if (!known_[i].first_point)
                 continue;
-            const auto point = run_->file.point(run_->record.name, *first_points_[i]);
+            const auto point = run_->file.point(run_->record.name, *known_[i].first_point);
             if (!point || run_->record.samplings.empty())
                 continue;
             const std::string sampling = shown_samplings(*picture_, *run_).front();
             const std::vector<double> xs = samples_of(*point, *run_, x_, sampling, nullptr),
                                       ys = samples_of(*point, *run_, y_, sampling, nullptr);
-            FigureSeries marks{"", FigureSeries::Style::symbols, FigureSeries::black, {}};
+            FigureSeries marks{"", FigureSeries::Style::symbols, FigureSeries::black};
             for (std::size_t k = 0; k < xs.size(); ++k) {
                 marks.points.push_back({xs[k], ys[k]});
                 panel_.labels.push_back({{xs[k], ys[k]}, fmt::format("{}", i + 1), FigureSeries::black});
@@ -223,23 +193,22 @@ private:
     bool map_;
     std::string x_, y_;
     FigurePanel panel_;
-    AttractorNames names_;
+    std::vector<KnownAttractor> known_; ///< in the order of the panel's series
     std::size_t attractors_ = 0;
-    std::vector<std::optional<std::size_t>> first_points_; ///< number of the first point of each attractor
 };
 
 } // namespace
 
-ResultPicture basin_picture(const StudyPicture& picture, const ResultFile& file, bool map) {
+ResultPicture basin_picture(const StudyPicture& picture, const ResultFile& file) {
     const StoredRun run(file, picture.runs.front(), picture.place);
     if (run.record.coordinates.size() < 2)
         throw InputError(picture.place, fmt::format("run '{}' varies fewer than two things", run.record.name),
                          "draw a bifurcation diagram or a scatter plot of it");
     ResultPicture result;
-    result.table = Table({{map ? "kind_number" : "attractor", ""}, {"kind", ""}, {"points", ""}});
+    result.table = Table({{picture.kind == "map" ? "kind_number" : "attractor", ""}, {"kind", ""}, {"points", ""}});
     const std::vector<std::string> directions = picture.directions.empty() ? run.record.directions : picture.directions;
     for (const std::string& direction : directions) {
-        result.figure.panels.push_back(BasinPanel(picture, run, map).drawn(direction, result.table));
+        result.figure.panels.push_back(BasinPanel(picture, run).drawn(direction, result.table));
         if (directions.size() > 1)
             result.figure.panels.back().title =
                 fmt::format("{} {} {}", panel_letter(result.figure.panels.size() - 1),

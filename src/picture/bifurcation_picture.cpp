@@ -1,4 +1,4 @@
-#include "picture/drawn_labels.hpp"
+#include "picture/box.hpp"
 #include "picture/picture_kinds.hpp"
 
 #include "graze/base/input_error.hpp"
@@ -41,47 +41,37 @@ std::vector<double> places_of_change(const StoredRun& run, const std::string& di
         ++stretches.back().points;
         ++all;
     }
-    struct Mark {
-        double at;
-        std::size_t points; ///< number of points of the shorter of the two stretches
-    };
-    std::vector<Mark> found;
+    std::vector<std::pair<double, std::size_t>> found; // places, and the points of the shorter of the two stretches
     const double least = least_stretch * static_cast<double>(all);
     const Stretch* before = nullptr;
     for (const Stretch& stretch : stretches) {
         if (static_cast<double>(stretch.points) < least)
             continue;
         if (before && before->kind != stretch.kind)
-            found.push_back({0.5 * (before->last + stretch.first), std::min(before->points, stretch.points)});
+            found.emplace_back(0.5 * (before->last + stretch.first), std::min(before->points, stretch.points));
         before = &stretch;
     }
     // Keep the changes between the longest stretches.
-    std::stable_sort(found.begin(), found.end(), [](const Mark& a, const Mark& b) { return a.points > b.points; });
+    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
     found.resize(std::min(found.size(), most_marks));
     std::vector<double> marks;
-    for (const Mark& mark : found)
-        marks.push_back(mark.at);
+    for (const auto& [at, points] : found)
+        marks.push_back(at);
     return marks;
 }
 
 /// Gives panels of the same value the same axis, so that up and down can be compared.
 void share_axes(Figure& figure) {
-    std::map<std::string, std::pair<double, double>> extents;
+    std::map<std::string, Extent> extents;
     for (const FigurePanel& panel : figure.panels)
         for (const FigureSeries& series : panel.series)
-            for (const PlanePoint& point : series.points) {
-                const auto [at, first] = extents.try_emplace(panel.y_label, point.y, point.y);
-                at->second.first = std::min(at->second.first, point.y);
-                at->second.second = std::max(at->second.second, point.y);
-            }
+            for (const PlanePoint& point : series.points)
+                extents[panel.y_label].add(point.y);
     constexpr double margin = 0.04;
     for (FigurePanel& panel : figure.panels)
-        if (const auto at = extents.find(panel.y_label);
-            at != extents.end() && !panel.y_range && !panel.logarithmic_y) {
-            const auto [low, high] = at->second;
-            if (!is_constant(low, high))
-                panel.y_range = std::pair(low - margin * (high - low), high + margin * (high - low));
-        }
+        if (const Extent& y = extents[panel.y_label];
+            !is_constant(y.least, y.greatest) && !panel.y_range && !panel.logarithmic_y)
+            panel.y_range = std::pair(y.least - margin * y.span(), y.greatest + margin * y.span());
 }
 
 /// Value and direction of a panel, over which other runs may be drawn.
@@ -133,8 +123,7 @@ void add_samples(FigurePanel& panel, const StudyPicture& picture, const StoredRu
     const std::vector<std::string> directions =
         has_direction ? std::vector<std::string>{shown.direction} : std::vector<std::string>();
     const bool judged = seeks_attractors(run.record);
-    FigureSeries uncertain{"", FigureSeries::Style::symbols, mark_of_label(name_of(Label::unsettled)).colour, {}};
-    uncertain.symbol = mark_of_label(name_of(Label::unsettled)).symbol;
+    FigureSeries uncertain = series_of_label(name_of(Label::unsettled));
     uncertain.title = named_with(name_of(Label::unsettled), over ? shown_name(picture, run.record.name) : "");
     auto rows = run.rows({.samples = true,
                           .columns = {"sampling", "label"},
@@ -199,7 +188,7 @@ void add_over(Figure& figure, const StudyPicture& picture, const std::vector<Sho
 
 } // namespace
 
-Figure bifurcation_picture(const StudyPicture& picture, const ResultFile& file) {
+ResultPicture bifurcation_picture(const StudyPicture& picture, const ResultFile& file) {
     Figure figure;
     std::vector<ShownPanel> shown;
     for (const std::string& name : picture.runs) {
@@ -229,7 +218,7 @@ Figure bifurcation_picture(const StudyPicture& picture, const ResultFile& file) 
     }
     add_over(figure, picture, shown, file);
     share_axes(figure);
-    return figure;
+    return {std::move(figure)};
 }
 
 } // namespace graze

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "base/special_numbers.hpp"
 #include "graze/picture/figure.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -24,10 +26,30 @@ struct Box {
         return left <= other.left && other.right <= right && low <= other.low && other.high <= high;
     }
     Box grown(double by) const { return {left - by, low - by, right + by, high + by}; }
+    PlanePoint middle() const { return {(left + right) / 2, (low + high) / 2}; }
     static Box around(const PlanePoint& centre, double width, double height) {
         return {centre.x - width / 2, centre.y - height / 2, centre.x + width / 2, centre.y + height / 2};
     }
 };
+
+/// The least and the greatest of some values, which are not finite while there is none.
+struct Extent {
+    double least = infinity, greatest = -infinity;
+    void add(double value) {
+        least = std::min(least, value);
+        greatest = std::max(greatest, value);
+    }
+    double span() const { return std::max(greatest - least, 0.0); }
+};
+
+/// The point at a fraction of the way from one point to another.
+inline PlanePoint between(const PlanePoint& from, const PlanePoint& to, double part) {
+    return {from.x + part * (to.x - from.x), from.y + part * (to.y - from.y)};
+}
+
+inline double distance_of(const PlanePoint& one, const PlanePoint& other) {
+    return std::hypot(other.x - one.x, other.y - one.y);
+}
 
 /// The part of a line between two points that lies in a box: fractions of its length at which it enters and leaves, or
 /// none (Liang and Barsky 1984).

@@ -32,11 +32,11 @@ constexpr std::array<std::pair<Look, const char*>, 3> branch_looks{
 struct DrawnPoint {
     std::string part, label;
     std::string name; ///< text that is shown for the label
-    PointType type = PointType::regular;
-    Look look = Look::stable;
-    std::int64_t step = 0;
-    double along = 0; ///< arclength along the branch
-    double x = 0;
+    PointType type;
+    Look look;
+    std::int64_t step;
+    double along; ///< arclength along the branch
+    double x;
     std::vector<double> y;
 };
 
@@ -110,20 +110,22 @@ std::vector<DrawnPoint> points_of(const StoredRun& run, const StudyPicture& pict
                           .directions = picture.directions});
     std::vector<DrawnPoint> points;
     while (rows.next()) {
-        DrawnPoint& point = points.emplace_back();
-        point.part = rows.text(0);
-        point.label = rows.text(1);
-        point.name = run.record.point_name(point.label);
-        point.type = point_type(rows.text(2)).value_or(PointType::regular);
-        point.look = rows.integer(4) == 0 ? Look::unphysical : rows.integer(3) == 0 ? Look::unstable : Look::stable;
-        point.step = rows.integer(5);
         const auto number = [&](std::size_t column) { // infinite values cannot be drawn
             return rows.is_null(column) || std::isinf(rows.number(column)) ? not_a_number : rows.number(column);
         };
-        point.along = number(6);
-        point.x = number(7);
+        points.push_back({rows.text(0),
+                          rows.text(1),
+                          run.record.point_name(rows.text(1)),
+                          point_type(rows.text(2)).value_or(PointType::regular),
+                          rows.integer(4) == 0   ? Look::unphysical
+                          : rows.integer(3) == 0 ? Look::unstable
+                                                 : Look::stable,
+                          rows.integer(5),
+                          number(6),
+                          number(7),
+                          {}});
         for (std::size_t v = 0; v < values.size(); ++v)
-            point.y.push_back(number(8 + v));
+            points.back().y.push_back(number(8 + v));
     }
     return points;
 }
@@ -193,8 +195,8 @@ void add_branch(FigurePanel& panel, const StudyPicture& picture, const std::vect
         for (const Stretch& stretch : stretches) {
             if ((stretch.look == Look::unphysical) != unphysical || stretch.points.size() < 2)
                 continue;
-            FigureSeries series{
-                "", kept ? style_of(*kept) : style_of(stretch.look), unphysical ? FigureSeries::grey : colour, {}};
+            FigureSeries series{"", kept ? style_of(*kept) : style_of(stretch.look),
+                                unphysical ? FigureSeries::grey : colour};
             for (const std::size_t at : stretch.points) {
                 if (kind_of(points[at].type)
                         .limits) // the segment with the greatest value changes there: the line has a corner
@@ -209,8 +211,7 @@ void add_branch(FigurePanel& panel, const StudyPicture& picture, const std::vect
         if (is_marked(picture, point))
             symbols.insert(kind_of(point.type).mark);
     for (const int symbol : symbols) {
-        FigureSeries series{"", FigureSeries::Style::symbols, colour, {}};
-        series.symbol = symbol;
+        FigureSeries series{.style = FigureSeries::Style::symbols, .colour = colour, .symbol = symbol};
         for (const DrawnPoint& point : points)
             if (kind_of(point.type).mark == symbol && is_marked(picture, point)) {
                 const PlanePoint here{point.x, point.y[value]};
@@ -230,24 +231,6 @@ std::vector<std::size_t> colours_of(const StudyPicture& picture, const std::vect
     for (const StoredRun& run : runs)
         colours.push_back(known.try_emplace(shown_name(picture, run.record.name), known.size()).first->second);
     return colours;
-}
-
-/// Adds the meaning of each used symbol, and of its labels, to the legend.
-void add_symbols(FigurePanel& panel, const StudyPicture& picture, const std::vector<std::vector<DrawnPoint>>& points,
-                 std::size_t colour) {
-    std::set<PointType> types;
-    for (const std::vector<DrawnPoint>& of_run : points)
-        for (const DrawnPoint& point : of_run)
-            if (is_marked(picture, point))
-                types.insert(point.type);
-    for (const PointType type : types) {
-        const PointKind& kind = kind_of(type);
-        FigureSeries series{
-            fmt::format("{}: {}", kind.short_name, kind.name), FigureSeries::Style::symbols, colour, {}};
-        series.symbol = kind.mark;
-        series.only_in_legend = true;
-        panel.series.push_back(std::move(series));
-    }
 }
 
 /// Meanings of the line styles of curves; empty if each style belongs to one run, whose name tells it.
@@ -270,10 +253,9 @@ std::map<FigureSeries::Style, std::string> curve_styles(const std::vector<std::o
 void add_legend(FigurePanel& panel, const StudyPicture& picture, const std::vector<StoredRun>& runs,
                 const std::vector<std::vector<DrawnPoint>>& points, const std::vector<std::optional<PointType>>& kept) {
     const std::vector<std::size_t> colours = colours_of(picture, runs);
-    const auto add = [&](const std::string& title, FigureSeries::Style style, std::size_t colour) {
-        FigureSeries series{title, style, colour, {}};
-        series.only_in_legend = true;
-        panel.series.push_back(std::move(series));
+    const auto add = [&](const std::string& title, FigureSeries::Style style, std::size_t colour, int symbol = 0) {
+        panel.series.push_back(
+            {.title = title, .style = style, .colour = colour, .symbol = symbol, .only_in_legend = true});
     };
     if (runs.size() > 1)
         for (std::size_t r = 0; r < runs.size(); ++r)
@@ -291,12 +273,19 @@ void add_legend(FigurePanel& panel, const StudyPicture& picture, const std::vect
     for (const auto& [look, name] : branch_looks)
         if (shown.contains(look))
             add(name, style_of(look), look == Look::unphysical ? FigureSeries::grey : colour);
-    add_symbols(panel, picture, points, colour);
+    std::set<PointType> types;
+    for (const std::vector<DrawnPoint>& of_run : points)
+        for (const DrawnPoint& point : of_run)
+            if (is_marked(picture, point))
+                types.insert(point.type);
+    for (const PointType type : types)
+        add(fmt::format("{}: {}", kind_of(type).short_name, kind_of(type).name), FigureSeries::Style::symbols, colour,
+            kind_of(type).mark);
 }
 
 } // namespace
 
-Figure branch_picture(const StudyPicture& picture, const ResultFile& file) {
+ResultPicture branch_picture(const StudyPicture& picture, const ResultFile& file) {
     std::vector<StoredRun> runs;
     for (const std::string& name : picture.runs) {
         const StoredRun& run = runs.emplace_back(file, name, picture.place);
@@ -331,7 +320,7 @@ Figure branch_picture(const StudyPicture& picture, const ResultFile& file) {
         add_legend(panel, picture, runs, points, kept);
         figure.panels.push_back(std::move(panel));
     }
-    return figure;
+    return {std::move(figure)};
 }
 
 } // namespace graze

@@ -1,10 +1,13 @@
 #include "picture/curve.hpp"
 
+#include "base/special_numbers.hpp"
 #include "graze/base/input_error.hpp"
+#include "picture/box.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -21,42 +24,6 @@ double distance_from(PlanePoint p, PlanePoint a, PlanePoint b) {
     share = std::clamp(share, 0.0, 1.0);
     return std::hypot(p.x - a.x - share * dx, p.y - a.y - share * dy);
 }
-
-} // namespace
-
-Polyline simplified(std::span<const PlanePoint> line, double width, double height, double distance) {
-    if (line.size() < 3)
-        return {line.begin(), line.end()};
-    const auto scaled = [&](std::size_t i) { return PlanePoint{line[i].x / width, line[i].y / height}; };
-    std::vector<bool> kept(line.size(), false);
-    kept.front() = kept.back() = true;
-    std::vector<std::pair<std::size_t, std::size_t>> open{{0, line.size() - 1}};
-    while (!open.empty()) {
-        const auto [first, last] = open.back();
-        open.pop_back();
-        double furthest = distance;
-        std::size_t split = 0;
-        for (std::size_t i = first + 1; i < last; ++i) {
-            const double away = distance_from(scaled(i), scaled(first), scaled(last));
-            if (away > furthest) {
-                furthest = away;
-                split = i;
-            }
-        }
-        if (split == 0)
-            continue;
-        kept[split] = true;
-        open.emplace_back(first, split);
-        open.emplace_back(split, last);
-    }
-    Polyline result;
-    for (std::size_t i = 0; i < line.size(); ++i)
-        if (kept[i])
-            result.push_back(line[i]);
-    return result;
-}
-
-namespace {
 
 /// Slope of the cubics at a point between two intervals with these lengths and slopes; zero at extrema.
 double slope_between(double length, double slope, double next_length, double next_slope) {
@@ -113,7 +80,48 @@ void add_smoothed(Polyline& result, std::span<const PlanePoint> line, std::span<
     }
 }
 
+/// The next number 1, 2 or 5 times a power of ten that is not below the step.
+double round_step(double step) {
+    const double decade = std::pow(10.0, std::floor(std::log10(step)));
+    for (const double factor : {1.0, 2.0, 5.0})
+        if (step <= factor * decade * (1 + 1e-12))
+            return factor * decade;
+    return 10 * decade;
+}
+
 } // namespace
+
+Polyline simplified(std::span<const PlanePoint> line, double width, double height, double distance) {
+    if (line.size() < 3)
+        return {line.begin(), line.end()};
+    const auto scaled = [&](std::size_t i) { return PlanePoint{line[i].x / width, line[i].y / height}; };
+    std::vector<bool> kept(line.size(), false);
+    kept.front() = kept.back() = true;
+    std::vector<std::pair<std::size_t, std::size_t>> open{{0, line.size() - 1}};
+    while (!open.empty()) {
+        const auto [first, last] = open.back();
+        open.pop_back();
+        double furthest = distance;
+        std::size_t split = 0;
+        for (std::size_t i = first + 1; i < last; ++i) {
+            const double away = distance_from(scaled(i), scaled(first), scaled(last));
+            if (away > furthest) {
+                furthest = away;
+                split = i;
+            }
+        }
+        if (split == 0)
+            continue;
+        kept[split] = true;
+        open.emplace_back(first, split);
+        open.emplace_back(split, last);
+    }
+    Polyline result;
+    for (std::size_t i = 0; i < line.size(); ++i)
+        if (kept[i])
+            result.push_back(line[i]);
+    return result;
+}
 
 Polyline smoothed(std::span<const PlanePoint> line, std::span<const double> along,
                   std::span<const std::size_t> corners) {
@@ -138,6 +146,74 @@ Polyline smoothed(std::span<const PlanePoint> line, std::span<const double> alon
         first = last;
     }
     return result;
+}
+
+bool wraps_around(double from, double to, double period) {
+    return period > 0 && std::abs(to - from) > period / 2;
+}
+
+std::vector<PlanePoint> curve_of(const DenseMotion& motion, std::size_t x, std::size_t y) {
+    const std::vector<double>&xs = motion.values[x], &ys = motion.values[y];
+    std::vector<PlanePoint> points;
+    std::size_t arc = 0;
+    for (std::size_t i = 0; i < xs.size(); ++i) {
+        const bool begins = arc < motion.begins.size() && motion.begins[arc] == i;
+        arc += begins ? 1 : 0;
+        if (i > 0 && (begins || wraps_around(xs[i - 1], xs[i], motion.periods[x]) ||
+                      wraps_around(ys[i - 1], ys[i], motion.periods[y])))
+            points.push_back({not_a_number, not_a_number});
+        points.push_back({xs[i], ys[i]});
+    }
+    return points;
+}
+
+std::vector<double> contour_levels(const ContourGrid& grid, std::size_t about) {
+    Extent range;
+    for (const double value : grid.values)
+        if (std::isfinite(value))
+            range.add(value);
+    const auto [least, greatest] = range;
+    std::vector<double> levels;
+    if (!(least < greatest) || about == 0)
+        return levels;
+    const double step = round_step((greatest - least) / static_cast<double>(about));
+    // Levels are multiples of the step. Rounding may leave none between values that are large and nearly equal.
+    const double first = std::ceil(least / step), last = std::floor(greatest / step);
+    // The loop is bounded: for large values, adding 1 may not change `first`.
+    for (std::size_t k = 0; k <= 2 * about + 2 && first + static_cast<double>(k) <= last; ++k)
+        if (const double level = (first + static_cast<double>(k)) * step; level > least && level < greatest)
+            if (levels.empty() || level > levels.back())
+                levels.push_back(level);
+    return levels;
+}
+
+std::vector<PlanePoint> contour_line(const ContourGrid& grid, double level) {
+    const std::size_t across = grid.x.size();
+    std::vector<PlanePoint> points;
+    for (std::size_t j = 0; j + 1 < grid.y.size(); ++j)
+        for (std::size_t i = 0; i + 1 < across; ++i) {
+            const std::array<PlanePoint, 4> corners{{{grid.x[i], grid.y[j]},
+                                                     {grid.x[i + 1], grid.y[j]},
+                                                     {grid.x[i + 1], grid.y[j + 1]},
+                                                     {grid.x[i], grid.y[j + 1]}}};
+            const std::array<double, 4> values{grid.values[j * across + i], grid.values[j * across + i + 1],
+                                               grid.values[(j + 1) * across + i + 1],
+                                               grid.values[(j + 1) * across + i]};
+            if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
+                continue;
+            std::vector<PlanePoint> crossings;
+            for (std::size_t k = 0; k < corners.size(); ++k) {
+                const std::size_t next = (k + 1) % corners.size();
+                if ((values[k] < level) == (values[next] < level))
+                    continue;
+                const double share = (level - values[k]) / (values[next] - values[k]);
+                crossings.push_back(between(corners[k], corners[next], share));
+            }
+            // Two crossings, or four at a saddle, where either pairing is valid.
+            for (std::size_t k = 0; k + 1 < crossings.size(); k += 2)
+                points.insert(points.end(), {crossings[k], crossings[k + 1], {not_a_number, not_a_number}});
+        }
+    return points;
 }
 
 void require_drawable(double low, double high, const std::string& name) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "graze/picture/figure.hpp"
+#include "graze/study/point_motion.hpp"
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +22,26 @@ Polyline simplified(std::span<const PlanePoint> line, double width, double heigh
 /// @param along arclength or time of each point; of another length: no smoothing. @param corners indices of points
 Polyline smoothed(std::span<const PlanePoint> line, std::span<const double> along,
                   std::span<const std::size_t> corners);
+
+/// True when a cyclic value wraps around between two rows. @param period 0: the value is not cyclic
+bool wraps_around(double from, double to, double period);
+
+/// The curve through the rows of a motion, interrupted at the beginning of arcs and where a phase wraps around.
+/// @param x, y indices of its values
+std::vector<PlanePoint> curve_of(const DenseMotion& motion, std::size_t x, std::size_t y);
+
+/// Values over a rectangular grid, row by row from the lowest y; a value that is not finite is missing.
+struct ContourGrid {
+    std::vector<double> x, y; ///< rising
+    std::vector<double> values;
+};
+
+/// Levels at round numbers strictly between the least and the greatest value, approximately `about` of them.
+std::vector<double> contour_levels(const ContourGrid& grid, std::size_t about);
+
+/// The contour line of a level, with values interpolated along the edges of cells: pieces of two points each, with a
+/// point that is not finite after each piece.
+std::vector<PlanePoint> contour_line(const ContourGrid& grid, double level);
 
 /// Checks the limits of an axis. @param name of the axis, for the message
 /// @throws InputError unless numbers from `low` to `high` can be drawn in double precision

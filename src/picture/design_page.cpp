@@ -4,7 +4,7 @@
 #include "graze/base/input_error.hpp"
 #include "graze/picture/trip_series.hpp"
 #include "graze/picture/yield_picture.hpp"
-#include "picture/contour_lines.hpp"
+#include "picture/curve.hpp"
 
 #include <fmt/format.h>
 
@@ -79,14 +79,12 @@ private:
     }
 
     FigurePanel value_panel(const DesignDimension& dimension) const {
-        FigurePanel panel;
-        panel.x_label = dimension.name;
-        panel.x_unit = dimension.unit;
-        panel.x_words = dimension.text;
-        panel.y_label = design_.control;
-        panel.y_unit = unit_;
-        panel.roomy_y = true;
-        return panel;
+        return {.x_label = dimension.name,
+                .y_label = design_.control,
+                .x_unit = dimension.unit,
+                .y_unit = unit_,
+                .x_words = dimension.text,
+                .roomy_y = true};
     }
 
     double nominal(const DesignDimension& dimension) const {
@@ -94,13 +92,8 @@ private:
     }
 
     /// A symbol at the values of the device.
-    static FigureSeries mark(PlanePoint at, const std::string& title) {
-        FigureSeries series;
-        series.title = title;
-        series.style = FigureSeries::Style::symbols;
-        series.colour = FigureSeries::black;
-        series.points.push_back(at);
-        return series;
+    static FigureSeries mark(PlanePoint at) {
+        return {"the device", FigureSeries::Style::symbols, FigureSeries::black, {at}};
     }
 
     /// One line for each class; it extends to the first point of the next class.
@@ -108,10 +101,7 @@ private:
         const DesignDimension& dimension = design_.dimensions[curve.dimension];
         FigurePanel panel = value_panel(dimension);
         for (const ClassStyle& style : classes) {
-            FigureSeries series;
-            series.title = class_name(style.outcome);
-            series.style = FigureSeries::Style::line;
-            series.colour = style.colour;
+            FigureSeries series{std::string(class_name(style.outcome)), FigureSeries::Style::line, style.colour};
             bool any = false, before = false;
             for (const MappedValue& one : curve.points) {
                 const bool usable = one.found && one.admissible, is = usable && one.outcome == style.outcome;
@@ -122,23 +112,22 @@ private:
             if (any)
                 panel.series.push_back(std::move(series));
         }
-        panel.series.push_back(mark({nominal(dimension), report_.value}, "the device"));
+        panel.series.push_back(mark({nominal(dimension), report_.value}));
         figure_.panels.push_back(std::move(panel));
     }
 
     void add_plane(const DimensionPlane& plane) {
         const DesignDimension &x = design_.dimensions[plane.across], &y = design_.dimensions[plane.up];
-        FigurePanel panel;
-        panel.title = fmt::format("{} at which it trips", design_.control);
-        panel.x_label = x.name;
-        panel.x_unit = x.unit;
-        panel.y_label = y.name;
-        panel.y_unit = y.unit;
-        panel.x_range = {x.least, x.greatest};
-        panel.y_range = {y.least, y.greatest};
+        FigurePanel panel{.title = fmt::format("{} at which it trips", design_.control),
+                          .x_label = x.name,
+                          .y_label = y.name,
+                          .x_unit = x.unit,
+                          .y_unit = y.unit,
+                          .x_range = std::pair(x.least, x.greatest),
+                          .y_range = std::pair(y.least, y.greatest)};
         add_classes(panel, plane, x, y);
         add_contours(panel, plane);
-        panel.series.push_back(mark({nominal(x), nominal(y)}, "the device"));
+        panel.series.push_back(mark({nominal(x), nominal(y)}));
         figure_.panels.push_back(std::move(panel));
     }
 
@@ -149,10 +138,7 @@ private:
         const double half_x = 0.5 * (x.greatest - x.least) / (points - 1);
         const double half_y = 0.5 * (y.greatest - y.least) / (points - 1);
         for (const ClassStyle& style : classes) {
-            FigureSeries series;
-            series.title = class_name(style.outcome);
-            series.style = FigureSeries::Style::cells;
-            series.colour = style.colour;
+            FigureSeries series{std::string(class_name(style.outcome)), FigureSeries::Style::cells, style.colour};
             for (const MappedValue& one : plane.points)
                 if (one.found && one.admissible && one.outcome == style.outcome)
                     series.cells.push_back({std::max(x.least, one.x - half_x), std::min(x.greatest, one.x + half_x),
@@ -173,10 +159,7 @@ private:
             grid.values.push_back(one.found && one.admissible ? one.value : not_a_number);
         constexpr std::size_t about = 8; // approximate number of levels
         for (const double level : contour_levels(grid, about)) {
-            FigureSeries series;
-            series.style = FigureSeries::Style::line;
-            series.colour = FigureSeries::black;
-            series.points = contour_line(grid, level);
+            FigureSeries series{"", FigureSeries::Style::line, FigureSeries::black, contour_line(grid, level)};
             if (series.points.empty())
                 continue;
             panel.labels.push_back({series.points[series.points.size() / 2 / 3 * 3], fmt::format("{:.6g}", level),
@@ -186,18 +169,15 @@ private:
     }
 
     void add_times() {
-        FigurePanel panel;
-        panel.x_label = design_.control + " beyond the trip value";
-        panel.x_unit = unit_;
-        panel.y_label = "time";
-        panel.y_unit = time_unit_;
-        panel.logarithmic_x = true;
-        panel.roomy_x = panel.roomy_y = true;
+        FigurePanel panel{.x_label = design_.control + " beyond the trip value",
+                          .y_label = "time",
+                          .x_unit = unit_,
+                          .y_unit = time_unit_,
+                          .logarithmic_x = true,
+                          .roomy_y = true,
+                          .roomy_x = true};
         std::vector<std::pair<double, TripTime>> best;
-        FigureSeries simulated;
-        simulated.title = "simulation alone";
-        simulated.style = FigureSeries::Style::circles;
-        simulated.colour = 2;
+        FigureSeries simulated{"simulation alone", FigureSeries::Style::circles, 2};
         for (const OvershootTrip& row : report_.times.rows) {
             if (row.continued && row.continued->ended)
                 best.emplace_back(std::abs(row.overshoot), *row.continued);
@@ -215,22 +195,20 @@ private:
 
     void add_tuning(const Tuning& tuning) {
         const DesignDimension& stop = design_.dimensions[*design_.adjustable];
-        FigurePanel panel;
-        panel.title = "Tuning";
-        panel.x_label = design_.control;
-        panel.x_unit = unit_;
-        panel.y_label = stop.name;
-        panel.y_unit = stop.unit;
-        panel.roomy_x = panel.roomy_y = true;
-        FigureSeries line;
-        line.style = FigureSeries::Style::line;
+        FigureSeries line{.style = FigureSeries::Style::line};
         for (const TuningPoint& one : tuning.points)
             line.points.push_back({one.value, one.found && one.value >= tuning.least && one.value <= tuning.greatest
                                                   ? one.position
                                                   : not_a_number});
-        panel.series = {line, mark({report_.value, nominal(stop)}, "the device")};
-        panel.marks = {tuning.least, tuning.greatest};
-        figure_.panels.push_back(std::move(panel));
+        figure_.panels.push_back({.title = "Tuning",
+                                  .x_label = design_.control,
+                                  .y_label = stop.name,
+                                  .x_unit = unit_,
+                                  .y_unit = stop.unit,
+                                  .roomy_y = true,
+                                  .roomy_x = true,
+                                  .series = {line, mark({report_.value, nominal(stop)})},
+                                  .marks = {tuning.least, tuning.greatest}});
     }
 
     void add_yield() {

@@ -1,5 +1,6 @@
 #include "graze/picture/fabrication_picture.hpp"
 
+#include "graze/picture/figure.hpp"
 #include "picture/gnuplot_text.hpp"
 
 #include <fmt/format.h>
@@ -28,26 +29,19 @@ constexpr std::array<MaterialLook, 4> material_looks{{{ProcessMaterial::silicon,
                                                       {ProcessMaterial::aluminium, "aluminium", "#1c2f5c"}}};
 
 /// Range of the coordinates of all cross-sections, which have one scale.
-struct CrossSection {
-    double left = 0, right = 0, low = 0, high = 0;
-};
-
-CrossSection cross_section_of(const std::vector<ProcessStep>& steps) {
-    CrossSection extent;
+PlaneBox extent_of(const std::vector<ProcessStep>& steps) {
+    PlaneBox extent;
     for (const ProcessStep& step : steps)
-        for (const ProcessSlab& slab : step.slabs) {
-            extent.left = std::min(extent.left, slab.left);
-            extent.right = std::max(extent.right, slab.right);
-            extent.low = std::min(extent.low, slab.low);
-            extent.high = std::max(extent.high, slab.high);
-        }
+        for (const ProcessSlab& slab : step.slabs)
+            extent = {std::min(extent.left, slab.left), std::max(extent.right, slab.right),
+                      std::min(extent.low, slab.low), std::max(extent.high, slab.high)};
     return extent;
 }
 
 class FabricationPicture {
 public:
     explicit FabricationPicture(const std::vector<ProcessStep>& steps)
-        : steps_(&steps), extent_(cross_section_of(steps)), rows_((steps.size() + row_columns) / row_columns),
+        : steps_(&steps), extent_(extent_of(steps)), rows_((steps.size() + row_columns) / row_columns),
           page_height_(static_cast<double>(rows_) * (title_height + section_height + row_gap) + 2 * page_margin) {}
 
     std::string text(const std::string& ending, const std::string& output) {
@@ -56,12 +50,7 @@ public:
         write_legend(steps_->size());
         const std::string font = fmt::format("font 'sans,{:.3g}'", ending == "pdf" ? 0.75 * letter_size : letter_size);
         const std::string size =
-            ending == "pdf"
-                ? fmt::format("pdfcairo noenhanced size {:.3f}in,{:.3f}in", fabrication_width / 96, page_height_ / 96)
-            : ending == "png" ? fmt::format("pngcairo noenhanced size {:.0f},{:.0f} fontscale 1.5",
-                                            2 * fabrication_width, 2 * page_height_)
-                              : fmt::format("svg noenhanced size {:.0f},{:.0f} background rgb 'white'",
-                                            fabrication_width, page_height_);
+            drawing_terminal(ending, fabrication_width, page_height_, 2) + (ending == "png" ? " fontscale 1.5" : "");
         return fmt::format("set terminal {} {}\nset output {}\nset encoding utf8\nunset key\nunset tics\nunset border\n"
                            "set lmargin at screen 0\nset rmargin at screen 1\nset bmargin at screen 0\nset tmargin at "
                            "screen 1\nset xrange [0:{}]\nset yrange [{}:0]\n{}plot NaN\nset output\n",
@@ -117,7 +106,7 @@ private:
     }
 
     const std::vector<ProcessStep>* steps_;
-    CrossSection extent_;
+    PlaneBox extent_;
     std::size_t rows_;
     double page_height_;
     std::string commands_;

@@ -85,11 +85,7 @@ public:
         page_.font = font_of(figure.style, width);
         page_.width = width * points_per_mm;
         page_.panels.resize(figure.panels.size());
-        titles_.resize(figure.panels.size());
-        x_labels_.resize(figure.panels.size());
-        y_labels_.resize(figure.panels.size());
-        notes_.resize(figure.panels.size());
-        reserved_.resize(figure.panels.size());
+        texts_.resize(figure.panels.size());
         columns_ = std::clamp<std::size_t>(columns, 1, std::max<std::size_t>(1, figure.panels.size()));
         while (columns_ > 1 && width / static_cast<double>(columns_) < least_panel + 3 * page_.font / points_per_mm)
             --columns_;
@@ -103,14 +99,11 @@ public:
         // A fixed-point iteration: heights decide on the tic labels, these on widths, and these on legends and heights.
         // Labels that do not fit are listed below the panel, which needs height too.
         constexpr int rounds = 3;
-        for (int round = 0; round < rounds; ++round)
-            measure();
-        place_all();
-        while (needs_more_lines()) { // ends, since the reserved lines only grow, and the lists are bounded
+        do {
             for (int round = 0; round < rounds; ++round)
                 measure();
             place_all();
-        }
+        } while (needs_more_lines()); // ends, since the reserved lines only grow, and the lists are bounded
         for (std::size_t p = 0; p < page_.panels.size(); ++p)
             write_notes(p);
         return std::move(page_);
@@ -130,14 +123,11 @@ private:
     }
 
     void collect_legends() {
-        bool shared = figure_->panels.size() > 1;
         std::vector<std::vector<LegendEntry>> legends;
         for (const FigurePanel& panel : figure_->panels)
             legends.push_back(legend_entries(panel));
-        const auto all = shared ? joined_legend(legends) : std::nullopt;
-        shared = all.has_value();
-        if (shared)
-            page_.legend = *all;
+        const auto shared = legends.size() > 1 ? joined_legend(legends) : std::nullopt;
+        page_.legend = shared.value_or(std::vector<LegendEntry>{});
         for (std::size_t p = 0; p < legends.size() && !shared; ++p)
             page_.panels[p].legend = legends[p];
     }
@@ -173,7 +163,7 @@ private:
         double numbers = 0;
         for (const PanelAxis::Tic& tic : page_.panels[p].y.tics)
             numbers = std::max(numbers, width_of(tic.text));
-        const double lines = static_cast<double>(y_labels_[p].size());
+        const double lines = static_cast<double>(texts_[p].y_label.size());
         return font() * (numbers + gap_at_tic + tic_length + lines * line_height + 0.6);
     }
     double room_at_right(std::size_t p) const {
@@ -184,20 +174,20 @@ private:
     void write_labels(std::size_t p) {
         const FigurePanel& panel = figure_->panels[p];
         const double width = frame_width_ / font();
-        titles_[p] = wrapped_lines(panel.title, width, 2);
-        x_labels_[p] =
+        texts_[p].title = wrapped_lines(panel.title, width, 2);
+        texts_[p].x_label =
             axis_label(panel.x_label, panel.x_words, panel.x_unit, page_.panels[p].x.power, width, figure_->symbols);
         // The label of the vertical axis may extend beside the title and the tic labels below.
         const double height = (height_of(p) + 2 * std::min(room_above(p), room_of_axis(p))) / font();
-        y_labels_[p] =
+        texts_[p].y_label =
             axis_label(panel.y_label, panel.y_words, panel.y_unit, page_.panels[p].y.power, height, figure_->symbols);
     }
     double room_above(std::size_t p) const {
-        return font() * (line_height * static_cast<double>(titles_[p].size()) + 0.5);
+        return font() * (line_height * static_cast<double>(texts_[p].title.size()) + 0.5);
     }
     /// Height of the lines reserved for notes.
     double room_of_notes(std::size_t p) const {
-        return note_line * legend_font(font()) * static_cast<double>(reserved_[p]);
+        return note_line * legend_font(font()) * static_cast<double>(texts_[p].reserved);
     }
     /// Lines of a panel's own notes, then of the lists of its labels; at most two if the figure's height is given.
     std::vector<std::string> notes_of(std::size_t p) const {
@@ -220,15 +210,15 @@ private:
     bool needs_more_lines() {
         bool more = false;
         for (std::size_t p = 0; p < page_.panels.size(); ++p) {
-            notes_[p] = notes_of(p);
-            more = more || notes_[p].size() > reserved_[p];
-            reserved_[p] = std::max(reserved_[p], notes_[p].size());
+            texts_[p].notes = notes_of(p);
+            more = more || texts_[p].notes.size() > texts_[p].reserved;
+            texts_[p].reserved = std::max(texts_[p].reserved, texts_[p].notes.size());
         }
         return more;
     }
     double room_of_axis(std::size_t p) const {
         return font() *
-               (tic_length + gap_at_tic + 1 + 0.2 + line_height * static_cast<double>(x_labels_[p].size()) + 0.2);
+               (tic_length + gap_at_tic + 1 + 0.2 + line_height * static_cast<double>(texts_[p].x_label.size()) + 0.2);
     }
 
     void measure() {
@@ -290,9 +280,7 @@ private:
         double y = page_.height - font() * edge_margin / 2;
         for (const std::string& text : figure_title()) {
             y -= title_size * line_height * font() / 2;
-            PlacedText placed{rich_words(text, figure_->symbols), {page_.width / 2, y}, title_size * font()};
-            placed.box = text_box(placed);
-            page_.title.push_back(placed);
+            add(page_.title, {words(text), {page_.width / 2, y}, title_size * font()});
             y -= title_size * line_height * font() / 2;
         }
         place_legend(page_.legend, edge_margin * font(), legend_height_ + 0.3 * font(),
@@ -325,50 +313,48 @@ private:
         double y = panel.frame.low - room_of_axis(p);
         for (const LegendEntry& entry : panel.legend)
             y = std::min(y, entry.box.low);
-        for (const std::string& text : notes_[p]) {
+        for (const std::string& text : texts_[p].notes) {
             y -= note_line * size / 2;
-            PlacedText placed{rich_words(text, figure_->symbols), {left, y}, size, PlacedText::Align::left, false};
-            placed.box = text_box(placed);
-            panel.texts.push_back(placed);
+            add(panel.texts, {words(text), {left, y}, size, PlacedText::Align::left});
             y -= note_line * size / 2;
         }
     }
 
-    void add(PanelLayout& panel, const RichText& text, const PlanePoint& at, PlacedText::Align align, bool upright) {
-        PlacedText placed{text, at, font(), align, upright};
-        placed.box = text_box(placed);
-        panel.texts.push_back(placed);
+    RichText words(const std::string& text) const { return rich_words(text, figure_->symbols); }
+    static void add(std::vector<PlacedText>& texts, PlacedText text) {
+        text.box = text_box(text);
+        texts.push_back(std::move(text));
     }
 
     /// Places all texts around the frame: title, tic labels and axis labels.
     void write(std::size_t p) {
-        using Align = PlacedText::Align;
         PanelLayout& panel = page_.panels[p];
         const Box& frame = panel.frame;
-        const double middle = (frame.left + frame.right) / 2;
-        double y = frame.high + font() * (0.3 + line_height * (static_cast<double>(titles_[p].size()) - 0.5));
-        for (const std::string& text : titles_[p]) {
-            add(panel, rich_words(text, figure_->symbols), {middle, y}, Align::centre, false);
+        const double middle = frame.middle().x;
+        double y = frame.high + font() * (0.3 + line_height * (static_cast<double>(texts_[p].title.size()) - 0.5));
+        for (const std::string& text : texts_[p].title) {
+            add(panel.texts, {words(text), {middle, y}, font()});
             y -= line_height * font();
         }
         for (const PanelAxis::Tic& tic : panel.x.tics)
-            add(panel, tic.text,
-                {frame.left + panel.x.share(tic.value) * frame.width(),
-                 frame.low - font() * (tic_length + gap_at_tic + 0.5)},
-                Align::centre, false);
+            add(panel.texts, {tic.text,
+                              {frame.left + panel.x.share(tic.value) * frame.width(),
+                               frame.low - font() * (tic_length + gap_at_tic + 0.5)},
+                              font()});
         y = frame.low - font() * (tic_length + gap_at_tic + 1.2 + line_height / 2);
-        for (const RichText& text : x_labels_[p]) {
-            add(panel, text, {middle, y}, Align::centre, false);
+        for (const RichText& text : texts_[p].x_label) {
+            add(panel.texts, {text, {middle, y}, font()});
             y -= line_height * font();
         }
         for (const PanelAxis::Tic& tic : panel.y.tics)
-            add(panel, tic.text,
-                {frame.left - font() * (tic_length + gap_at_tic),
-                 frame.low + panel.y.share(tic.value) * frame.height()},
-                Align::right, false);
+            add(panel.texts, {tic.text,
+                              {frame.left - font() * (tic_length + gap_at_tic),
+                               frame.low + panel.y.share(tic.value) * frame.height()},
+                              font(),
+                              PlacedText::Align::right});
         double x = frame.left - room_at_left(p) + font() * (line_height / 2 + 0.15);
-        for (const RichText& text : y_labels_[p]) {
-            add(panel, text, {x, (frame.low + frame.high) / 2}, Align::centre, true);
+        for (const RichText& text : texts_[p].y_label) {
+            add(panel.texts, {text, {x, frame.middle().y}, font(), PlacedText::Align::centre, true});
             x += line_height * font();
         }
     }
@@ -384,9 +370,13 @@ private:
     std::vector<double> left_, right_; ///< for each column: space beside its frames in points
     std::vector<double> above_, below_;
     bool crowded_ = false;
-    std::vector<std::vector<std::string>> titles_, notes_; ///< lines for each panel
-    std::vector<std::size_t> reserved_;                    ///< number of reserved lines of notes for each panel
-    std::vector<std::vector<RichText>> x_labels_, y_labels_;
+    /// Lines of texts outside of a panel's frame.
+    struct PanelTexts {
+        std::vector<std::string> title, notes;
+        std::size_t reserved = 0; ///< number of reserved lines of notes
+        std::vector<RichText> x_label, y_label;
+    };
+    std::vector<PanelTexts> texts_; ///< for each panel
 };
 
 } // namespace

@@ -1,15 +1,11 @@
 #include "graze/picture/figure_script.hpp"
 
 #include "graze/base/input_error.hpp"
-#include "picture/covered_lines.hpp"
 #include "picture/curve.hpp"
-#include "picture/dot_strokes.hpp"
 #include "picture/figure_layout.hpp"
 #include "picture/figure_look.hpp"
-#include "picture/figure_terminal.hpp"
 #include "picture/gnuplot_text.hpp"
-#include "picture/interleaved_crosses.hpp"
-#include "picture/interleaved_dots.hpp"
+#include "picture/interleaved_points.hpp"
 #include "picture/page_line.hpp"
 
 #include <fmt/format.h>
@@ -26,11 +22,6 @@ namespace {
 
 /// Greatest deviation of a simplified line, as a fraction of the panel's size.
 constexpr double invisible_step = 1e-4;
-
-bool draws_line(FigureSeries::Style style) {
-    return style == FigureSeries::Style::line || style == FigureSeries::Style::dashed ||
-           style == FigureSeries::Style::dotted;
-}
 
 /// Diameter of dots in points, smaller if there are many dots; it is the same in all panels of a picture.
 double dot_width(std::size_t dots, bool pixels) {
@@ -140,16 +131,14 @@ private:
     /// Diameter of circles: it depends on the colour, so that circles at the same point are all visible.
     double circle_size(std::size_t colour) const {
         constexpr double wider = 0.4;
-        if (colour >= FigureSeries::grey)
-            return symbol_;
-        return symbol_ * (1 + wider * static_cast<double>(colour % 3));
+        return colour >= FigureSeries::grey ? symbol_ : symbol_ * (1 + wider * static_cast<double>(colour % 3));
     }
 
     /// Commands for the samples and texts of a legend.
     std::string legend_commands(const std::vector<LegendEntry>& legend) const {
         std::string text;
         for (const LegendEntry& entry : legend) {
-            const double y = (entry.box.low + entry.box.high) / 2;
+            const double y = entry.box.middle().y;
             if (entry.sampled)
                 text += sample_commands(entry, y);
             text += fmt::format("set label \"{}\" at {} left {}\n", text_of(entry.text, legend_font(page_.font)),
@@ -205,9 +194,8 @@ private:
     std::string label_commands(const LabelPlaces& places) const {
         std::string text;
         for (const PlacedLabel& label : places.labels) {
-            const PlanePoint middle{(label.box.left + label.box.right) / 2, (label.box.low + label.box.high) / 2};
             text += fmt::format("set label \"{}\" at {} center {} tc rgb '{}' front\n",
-                                text_of(rich(label.text), label_font(page_.font)), at(middle),
+                                text_of(rich(label.text), label_font(page_.font)), at(label.box.middle()),
                                 terminal_.font_text(label_font(page_.font)),
                                 colour_text(grey() ? FigureSeries::black : label.colour));
             if (label.led)
@@ -242,8 +230,7 @@ private:
         const std::string plots = plot_commands(number);
         if (!plots.empty())
             return text + plots;
-        return text + fmt::format("set label \"no data\" at {} center\nplot 1/0 notitle\n",
-                                  at({(frame.left + frame.right) / 2, (frame.low + frame.high) / 2}));
+        return text + fmt::format("set label \"no data\" at {} center\nplot 1/0 notitle\n", at(frame.middle()));
     }
 
     std::string plot_commands(std::size_t number) const {
@@ -288,7 +275,7 @@ private:
             add(data_text(series, panel, layout),
                 style_text(series,
                            series.style == FigureSeries::Style::impulses ? panel.series.size() - 1 - s : covering[s]));
-            if (const int mark = grey() && draws_line(series.style) ? line_mark(series.colour) : 0; mark != 0)
+            if (const int mark = grey() && is_line(series.style) ? line_mark(series.colour) : 0; mark != 0)
                 add(marks_text(series, panel, layout),
                     fmt::format("with points pt {} ps {:.3g} lc rgb '{}'", mark, line_mark_size * symbol_,
                                 colour_text(series.colour, true)));
@@ -304,21 +291,27 @@ private:
         return simplified(line, layout.x.high - layout.x.low, layout.y.high - layout.y.low, invisible_step);
     }
 
+    static std::string points_text(const std::vector<PlanePoint>& points) {
+        std::string text;
+        for (const PlanePoint& point : points)
+            text += fmt::format("{:.10g} {:.10g}\n", point.x, point.y);
+        return text;
+    }
+
+    static Polyline on_panel(const Polyline& line, const PanelLayout& layout) {
+        Polyline placed;
+        for (const PlanePoint& place : line)
+            placed.push_back(off_page(place, layout));
+        return placed;
+    }
+
     /// Data of a line. Dashes are computed here rather than by gnuplot, so that dashes of coinciding lines coincide.
     std::string line_text(const Polyline& line, FigureSeries::Style style, const PanelLayout& layout) const {
+        if (style == FigureSeries::Style::line)
+            return points_text(line);
         std::string text;
-        if (style == FigureSeries::Style::line) {
-            for (const PlanePoint& point : line)
-                text += fmt::format("{:.10g} {:.10g}\n", point.x, point.y);
-            return text;
-        }
-        for (const Polyline& dash : dashes_of(page_line(line, layout), dash_pattern(style, stroke()), layout.frame)) {
-            for (const PlanePoint& place : dash) {
-                const PlanePoint point = off_page(place, layout);
-                text += fmt::format("{:.10g} {:.10g}\n", point.x, point.y);
-            }
-            text += '\n';
-        }
+        for (const Polyline& dash : dashes_of(page_line(line, layout), dash_pattern(style, stroke()), layout.frame))
+            text += points_text(on_panel(dash, layout)) + '\n';
         return text;
     }
 
@@ -329,48 +322,39 @@ private:
         return placed;
     }
 
+    /// The parts of a series between points that cannot be drawn.
+    static std::vector<Polyline> pieces_of(const FigureSeries& series, const FigurePanel& panel) {
+        std::vector<Polyline> pieces(1);
+        for (const PlanePoint& point : smoothed(series.points, series.along, series.corners))
+            if (is_drawn(point, panel))
+                pieces.back().push_back(point);
+            else
+                pieces.emplace_back();
+        return pieces;
+    }
+
     /// Data of the symbols along a line, which distinguish lines in grey pictures.
     static std::string marks_text(const FigureSeries& series, const FigurePanel& panel, const PanelLayout& layout) {
         constexpr double distance = 60, first = 12, later = 9; // points
+        const double start = first + later * static_cast<double>(series.colour % 6);
         std::string text;
-        Polyline piece;
-        const auto write = [&] {
-            const double start = first + later * static_cast<double>(series.colour % 6);
-            for (const PlanePoint& place : spread_along(page_line(piece, layout), distance, start, layout.frame)) {
-                const PlanePoint point = off_page(place, layout);
-                text += fmt::format("{:.10g} {:.10g}\n", point.x, point.y);
-            }
-            piece.clear();
-        };
-        for (const PlanePoint& point : smoothed(series.points, series.along, series.corners))
-            if (is_drawn(point, panel))
-                piece.push_back(point);
-            else
-                write();
-        write();
+        for (const Polyline& piece : pieces_of(series, panel))
+            text +=
+                points_text(on_panel(spread_along(page_line(piece, layout), distance, start, layout.frame), layout));
         return text;
     }
 
     std::string data_text(const FigureSeries& series, const FigurePanel& panel, const PanelLayout& layout) const {
-        const bool line = draws_line(series.style);
         std::string text;
         for (const PlaneBox& cell : series.cells)
             text += fmt::format("{:.10g} {:.10g} {:.10g} {:.10g} {:.10g} {:.10g}\n", (cell.left + cell.right) / 2,
                                 (cell.low + cell.high) / 2, cell.left, cell.right, cell.low, cell.high);
-        Polyline piece;
-        const auto write = [&] {
-            text += line ? line_text(thinned(piece, layout), series.style, layout)
-                         : line_text(piece, FigureSeries::Style::line, layout);
-            piece.clear();
-        };
-        for (const PlanePoint& point : smoothed(series.points, series.along, series.corners))
-            if (is_drawn(point, panel)) {
-                piece.push_back(point);
-            } else {
-                write();
-                text += '\n';
-            }
-        write();
+        std::size_t written = 0;
+        for (const Polyline& piece : pieces_of(series, panel)) {
+            text += written++ > 0 ? "\n" : "";
+            text +=
+                is_line(series.style) ? line_text(thinned(piece, layout), series.style, layout) : points_text(piece);
+        }
         return text;
     }
 

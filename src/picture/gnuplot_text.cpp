@@ -2,7 +2,6 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/base/printable.hpp"
-#include "picture/rich_text.hpp"
 
 #include <fmt/format.h>
 
@@ -45,19 +44,6 @@ std::string quoted_path(const std::string& path) {
     return result + "'";
 }
 
-std::string unit_text(const std::string& unit) {
-    return gnuplot_markup(rich_unit(unit));
-}
-
-std::string name_text(const std::string& name) {
-    require_quotable(name);
-    return gnuplot_markup(rich_name(name));
-}
-
-std::string with_unit(const std::string& label, const std::string& unit) {
-    return unit.empty() ? label : firm_blanks(fmt::format("{} ({})", label, unit_text(unit)));
-}
-
 std::string firm_blanks(std::string markup) {
     // librsvg drops blanks at the end of a span, except before a character of zero width.
     const std::string blank = "\u00a0", mark = "\u200b";
@@ -67,8 +53,12 @@ std::string firm_blanks(std::string markup) {
     return markup;
 }
 
-std::string number_text(double value) {
-    return fmt::format("{:.10g}", value);
+std::string drawing_terminal(const std::string& ending, double width, double height, double png_scale) {
+    if (ending == "png")
+        return fmt::format("pngcairo noenhanced size {:.0f},{:.0f}", png_scale * width, png_scale * height);
+    if (ending == "pdf")
+        return fmt::format("pdfcairo noenhanced size {:.3f}in,{:.3f}in", width / 96, height / 96);
+    return fmt::format("svg noenhanced size {:.0f},{:.0f} background rgb 'white'", width, height);
 }
 
 } // namespace graze

@@ -16,15 +16,10 @@ void require_quotable(const std::string& text);
 std::string plain(const std::string& text);
 /// A path in single quotes. @throws InputError for control characters
 std::string quoted_path(const std::string& path);
-/// Markup of a unit such as m/s^2, with raised exponents.
-std::string unit_text(const std::string& unit);
-/// Markup of a name: x_nd or q1 is a symbol with an index, longer names are words, and expressions stay unchanged.
-std::string name_text(const std::string& name);
-/// A label with its unit in parentheses, as markup.
-std::string with_unit(const std::string& label, const std::string& unit);
 /// Replaces blanks at changes of the font, which SVG viewers would drop, by blanks that they keep.
 std::string firm_blanks(std::string markup);
-/// A number with ten significant digits.
-std::string number_text(double value);
+/// Arguments of `set terminal` without the font, for a drawing on a page in pixels. @param ending svg, png or pdf
+/// @param png_scale number of dots of a PNG for each pixel
+std::string drawing_terminal(const std::string& ending, double width, double height, double png_scale = 1);
 
 } // namespace graze

@@ -31,10 +31,6 @@ constexpr double as_one = 0.5;       ///< closer symbols cannot be distinguished
 constexpr double nearer = 0.2;       ///< margin by which a label is nearer to its own symbol than to others
 constexpr double clear_of_led = 0.3; ///< least distance of a label with a leader from symbols of others
 
-double length_of(const PlanePoint& vector) {
-    return std::hypot(vector.x, vector.y);
-}
-
 /// True when the line between two points intersects a box.
 bool crosses(const PlanePoint& from, const PlanePoint& to, const Box& box) {
     return part_within(from, to, box).has_value();
@@ -47,42 +43,34 @@ bool lines_cross(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, 
     return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
 }
 
-/// Raster of the squares of a panel that curves cross, with a summed-area table for counts in rectangles.
+/// Raster of the squares of a panel that curves cross.
 class CurveMap {
 public:
     explicit CurveMap(const Box& frame)
         : frame_(frame), columns_(static_cast<std::size_t>(frame.width() / side) + 2),
-          rows_(static_cast<std::size_t>(frame.height() / side) + 2), cells_(columns_ * rows_, 0) {}
+          rows_(static_cast<std::size_t>(frame.height() / side) + 2), cells_(columns_ * rows_, false) {}
 
     void add(const PlanePoint& point) {
         if (frame_.holds(point))
-            cells_[index(column(point.x), row(point.y))] = 1;
+            cells_[index(column(point.x), row(point.y))] = true;
     }
     void add_line(const PlanePoint& from, const PlanePoint& to) {
         if (!crosses(from, to, frame_))
             return;
-        const double length = std::min(length_of({to.x - from.x, to.y - from.y}), 1e5);
-        const auto steps = static_cast<std::size_t>(length / (0.5 * side)) + 1;
-        for (std::size_t i = 0; i <= steps; ++i) {
-            const double part = static_cast<double>(i) / static_cast<double>(steps);
-            add({from.x + part * (to.x - from.x), from.y + part * (to.y - from.y)});
-        }
-    }
-    void finish() {
-        sums_.assign((columns_ + 1) * (rows_ + 1), 0);
-        for (std::size_t r = 0; r < rows_; ++r)
-            for (std::size_t c = 0; c < columns_; ++c)
-                sums_[(r + 1) * (columns_ + 1) + c + 1] =
-                    cells_[index(c, r)] + sum(c, r + 1) + sum(c + 1, r) - sum(c, r);
+        const auto steps = static_cast<std::size_t>(std::min(distance_of(from, to), 1e5) / (0.5 * side)) + 1;
+        for (std::size_t i = 0; i <= steps; ++i)
+            add(between(from, to, static_cast<double>(i) / static_cast<double>(steps)));
     }
     /// Fraction of a box's squares that curves cross.
     double share(const Box& box) const {
-        const std::size_t left = column(box.left), right = column(box.right) + 1, low = row(box.low),
-                          high = row(box.high) + 1;
-        const int found = sum(right, high) - sum(left, high) - sum(right, low) + sum(left, low);
-        return static_cast<double>(found) / static_cast<double>((right - left) * (high - low));
+        const std::size_t left = column(box.left), right = column(box.right), low = row(box.low), high = row(box.high);
+        std::size_t found = 0;
+        for (std::size_t r = low; r <= high; ++r)
+            for (std::size_t c = left; c <= right; ++c)
+                found += cells_[index(c, r)] ? 1 : 0;
+        return static_cast<double>(found) / static_cast<double>((right + 1 - left) * (high + 1 - low));
     }
-    bool is_taken(const PlanePoint& point) const { return cells_[index(column(point.x), row(point.y))] != 0; }
+    bool is_taken(const PlanePoint& point) const { return cells_[index(column(point.x), row(point.y))]; }
 
 private:
     static constexpr double side = 2; ///< side of a square in points
@@ -93,11 +81,10 @@ private:
         return static_cast<std::size_t>(std::clamp((y - frame_.low) / side, 0.0, static_cast<double>(rows_ - 1)));
     }
     std::size_t index(std::size_t column, std::size_t row) const { return row * columns_ + column; }
-    int sum(std::size_t column, std::size_t row) const { return sums_[row * (columns_ + 1) + column]; }
 
     Box frame_;
     std::size_t columns_, rows_;
-    std::vector<int> cells_, sums_;
+    std::vector<bool> cells_;
 };
 
 /// The labels of points whose symbols coincide, which are placed as one.
@@ -108,15 +95,11 @@ struct WantedLabel {
     PlanePoint point{};
 };
 
-/// The name of a label in a list under the panel.
-std::string listed_name(const FigureLabel& label) {
-    return label.owner.empty() ? label.text : fmt::format("{} ({})", label.text, label.owner);
-}
-
+/// The names of labels in a list under the panel.
 std::vector<std::string> listed_names(const WantedLabel& wanted) {
     std::vector<std::string> names;
     for (const FigureLabel* label : wanted.labels)
-        names.push_back(listed_name(*label));
+        names.push_back(label->owner.empty() ? label->text : fmt::format("{} ({})", label->text, label->owner));
     return names;
 }
 
@@ -127,11 +110,6 @@ std::vector<std::string> texts_of(const WantedLabel& wanted) {
         if (std::find(texts.begin(), texts.end(), label->text) == texts.end())
             texts.push_back(label->text);
     return texts;
-}
-
-/// The number in brackets that refers to names in a list under the panel.
-std::string key_text(std::size_t number) {
-    return fmt::format("[{}]", number + 1);
 }
 
 /// Distance between a box and a point; 0 inside.
@@ -151,7 +129,6 @@ public:
             add(series, panel);
         for (const double mark : panel.marks)
             curves_.add_line(place_of({mark, 0}, true), place_of({mark, 1}, true));
-        curves_.finish();
     }
 
     LabelPlaces find(const FigurePanel& panel) {
@@ -220,7 +197,7 @@ private:
             if (!frame_.holds(here))
                 continue;
             const auto same = std::find_if(wanted.begin(), wanted.end(), [&](const WantedLabel& one) {
-                return length_of({one.point.x - here.x, one.point.y - here.y}) < as_one * mark_;
+                return distance_of(here, one.point) < as_one * mark_;
             });
             if (same == wanted.end()) {
                 wanted.push_back({{&label}, label.colour, label.rank, here});
@@ -243,7 +220,7 @@ private:
         PlacedLabel label;
         const std::vector<std::string> texts = texts_of(wanted);
         const bool keyed = texts.size() > most_in_one;
-        label.text = keyed ? key_text(keys_) : fmt::format("{}", fmt::join(texts, ", "));
+        label.text = keyed ? fmt::format("[{}]", keys_ + 1) : fmt::format("{}", fmt::join(texts, ", "));
         label.colour = wanted.colour;
         label.point = wanted.point;
         const double width = width_of(rich(label.text)) * font_ + letters_beyond * font_;
@@ -287,7 +264,7 @@ private:
         label.leader_end = {std::clamp(label.point.x, box.left, box.right),
                             std::clamp(label.point.y, box.low, box.high)};
         const PlanePoint to{label.leader_end.x - label.point.x, label.leader_end.y - label.point.y};
-        const double length = std::max(length_of(to), 1e-9);
+        const double length = std::max(std::hypot(to.x, to.y), 1e-9);
         label.leader_start = {label.point.x + to.x * mark_ / 2 / length, label.point.y + to.y * mark_ / 2 / length};
         if (length <= mark_ / 2)
             label.leader_start = {label.point.x + direction.x * mark_ / 2, label.point.y + direction.y * mark_ / 2};
@@ -310,8 +287,8 @@ private:
 
     /// True when a reader could take the label for that of another symbol.
     bool seems_to_belong_to(const PlacedLabel& label, const Box& mark) const {
-        const PlanePoint middle{(mark.left + mark.right) / 2, (mark.low + mark.high) / 2};
-        if (length_of({middle.x - label.point.x, middle.y - label.point.y}) < as_one * mark_)
+        const PlanePoint middle = mark.middle();
+        if (distance_of(label.point, middle) < as_one * mark_)
             return false;
         const double away = distance_to(label.box, middle);
         if (!label.led)
@@ -325,13 +302,9 @@ private:
         if (!label.led)
             return cost;
         constexpr int parts = 8;
-        for (int i = 2; i < parts; ++i) {
-            const double part = static_cast<double>(i) / parts;
-            cost += curves_.is_taken({label.leader_start.x + part * (label.leader_end.x - label.leader_start.x),
-                                      label.leader_start.y + part * (label.leader_end.y - label.leader_start.y)})
-                        ? cost_of_crossing
-                        : 0;
-        }
+        for (int i = 2; i < parts; ++i)
+            if (curves_.is_taken(between(label.leader_start, label.leader_end, static_cast<double>(i) / parts)))
+                cost += cost_of_crossing;
         return cost;
     }
 
@@ -355,8 +328,7 @@ double label_font(double font) {
 
 LabelPlaces place_labels(const FigurePanel& panel, const Box& frame, const PanelAxis& x, const PanelAxis& y,
                          double font) {
-    LabelSearch search(panel, frame, x, y, font);
-    return search.find(panel);
+    return LabelSearch(panel, frame, x, y, font).find(panel);
 }
 
 } // namespace graze

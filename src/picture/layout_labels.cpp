@@ -1,5 +1,7 @@
 #include "picture/layout_labels.hpp"
 
+#include "layout/grid_lengths.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,10 +33,6 @@ GridPoint within(const GridBox& box, double along_x, double along_y) {
     return {share_between(box.left, box.right, along_x), share_between(box.bottom, box.top, along_y)};
 }
 
-std::int64_t on_grid(double micrometres) {
-    return std::llround(micrometres * grid_per_micrometre);
-}
-
 std::vector<PartLabel> labels_of_electrode(const DeviceDrawing& drawing) {
     const DeviceDimensions& d = drawing.dimensions;
     const GridBox mass = bounding_box(drawing.mass), &chamber = drawing.chamber_box;
@@ -42,8 +40,8 @@ std::vector<PartLabel> labels_of_electrode(const DeviceDrawing& drawing) {
     const GridBox face = outermost_side(drawing.electrode, true), pad = outermost_side(drawing.electrode, false);
     const GridBox base = outermost_side(drawing.base, false);
     const GridBox gap{face.right, face.bottom, mass.left, face.top};
-    const GridBox plate{face.left - on_grid(d.electrode_width), face.bottom, face.left, face.top};
-    const std::int64_t pad_end = pad.left + on_grid(d.pad_length), moat = on_grid(d.moat);
+    const GridBox plate{face.left - nanometres(d.electrode_width), face.bottom, face.left, face.top};
+    const std::int64_t pad_end = pad.left + nanometres(d.pad_length), moat = nanometres(d.moat);
     return {{"chamber on the back", {mass.left, chamber.top}, true},
             {fmt::format("gap d = {:.6g} µm", d.gap), within(gap, 0.5, 0.95), true},
             {"fixed electrode", within(plate, 0.5, 0.78), true},
@@ -65,15 +63,15 @@ std::vector<PartLabel> part_labels(const DeviceDrawing& drawing) {
                   finger = drawing.in_device(flexure.finger, false),
                   lug = drawing.in_device(flexure.lugs.back(), false),
                   truss = drawing.in_device(flexure.trusses.front(), true);
-    const GridBox bar{mass.right - on_grid(d.bar_width), mass.bottom, mass.right, mass.top};
+    const GridBox bar{mass.right - nanometres(d.bar_width), mass.bottom, mass.right, mass.top};
     // The label of the frame lies above the chamber, or beyond the trench if the chamber ends there.
-    const std::int64_t trench = mass.right + on_grid(d.clearance),
-                       beyond = on_grid(d.chamber_margin > 0 ? d.chamber_margin : d.clearance);
+    const std::int64_t trench = mass.right + nanometres(d.clearance),
+                       beyond = nanometres(d.chamber_margin > 0 ? d.chamber_margin : d.clearance);
     std::vector<PartLabel> labels = labels_of_electrode(drawing);
     labels.insert(
         labels.end(),
         {{"finger (anchor)",
-          within({finger.left, finger.top, finger.right, finger.top + on_grid(d.clearance)}, 0.75, 0.5), false},
+          within({finger.left, finger.top, finger.right, finger.top + nanometres(d.clearance)}, 0.75, 0.5), false},
          {"lug", within(lug, 0.5, 0.5), false},
          {fmt::format("folded flexure, {} beams", flexure.beams.size()), within(beam, 0.5, 0.8), false},
          {fmt::format("beam, {:.6g} by {:.6g} µm", d.flexure_width, d.flexure_length), within(next, 0.5, 0.5), false},

@@ -1,6 +1,8 @@
 #include "graze/picture/layout_picture.hpp"
 
 #include "graze/base/input_error.hpp"
+#include "graze/picture/figure.hpp"
+#include "layout/grid_lengths.hpp"
 #include "picture/gnuplot_text.hpp"
 #include "picture/layout_labels.hpp"
 
@@ -39,6 +41,12 @@ constexpr LayerStyle mask_styles[][3] = {
     {{mask_layers::back, "#222222"}, {mask_layers::back_letters, "#222222"}, {mask_layers::back_marks, "#222222"}},
     {{mask_layers::front, "#222222"}, {mask_layers::front_letters, "#222222"}, {mask_layers::front_marks, "#222222"}}};
 
+/// Middle of a box, in micrometres.
+PlanePoint middle_of(const GridBox& box) {
+    return {static_cast<double>(box.left + box.right) / 2 / grid_per_micrometre,
+            static_cast<double>(box.bottom + box.top) / 2 / grid_per_micrometre};
+}
+
 class LayoutPicture {
 public:
     LayoutPicture(const Layout& layout, const std::string& ending)
@@ -58,7 +66,7 @@ public:
         const double side = 460, top = page_height_ - side - 10;
         for (const int mask : {1, 2})
             draw_mask(mask, {mask == 1 ? 30 : page_width - side - 30, top, side, side}, all);
-        return head(output) + data_ + commands_ + "unset multiplot\nset output\n";
+        return whole(output);
     }
 
     /// The picture of one mask.
@@ -67,7 +75,7 @@ public:
         const bool is_wafer = !layout_->sites.empty();
         draw_mask(mask, {30, 60, page_width - 60, page_height_ - 90},
                   box_of(is_wafer ? mask_layers::wafer : mask_layers::die));
-        return head(output) + data_ + commands_ + "unset multiplot\nset output\n";
+        return whole(output);
     }
 
 private:
@@ -82,21 +90,15 @@ private:
                   place.left + place.width / 2, place.top - font_height);
     }
 
-    std::string head(const std::string& output) const {
+    std::string whole(const std::string& output) const {
         const std::string font = fmt::format("font 'sans,{:.3g}'", ending_ == "pdf" ? 0.75 * font_height : font_height);
-        std::string terminal;
-        if (ending_ == "png")
-            terminal = fmt::format("pngcairo noenhanced size {:.0f},{:.0f} fontscale 0.75", page_width, page_height_);
-        else if (ending_ == "pdf")
-            terminal = fmt::format("pdfcairo noenhanced size {:.3f}in,{:.3f}in", page_width / 96, page_height_ / 96);
-        else
-            terminal =
-                fmt::format("svg noenhanced size {:.0f},{:.0f} background rgb 'white'", page_width, page_height_);
+        const std::string terminal =
+            drawing_terminal(ending_, page_width, page_height_) + (ending_ == "png" ? " fontscale 0.75" : "");
         return fmt::format("set terminal {} {}\nset output {}\nset encoding utf8\nunset key\nunset tics\nunset border\n"
                            "set style fill solid\n"
                            "set style textbox opaque margins 0.4,0.4 fillcolor rgb '#ffffff' noborder\n"
-                           "set multiplot\n",
-                           terminal, font, quoted_path(output));
+                           "set multiplot\n{}{}unset multiplot\nset output\n",
+                           terminal, font, quoted_path(output), data_, commands_);
     }
 
     GridBox box_of(MaskLayer layer) const {
@@ -112,12 +114,9 @@ private:
     /// Begins a panel in which `box` is drawn as large as possible, with equal scales.
     /// @param margin fraction of the box that stays free on each side; @param side_room pixels for labels on both sides
     void begin_panel(const PageBox& place, const GridBox& box, double margin, double side_room = 0) {
-        const double width = static_cast<double>(box.width()) / grid_per_micrometre;
-        const double height = static_cast<double>(box.height()) / grid_per_micrometre;
-        scale_ = std::max(width * (1 + 2 * margin) / (place.width - 2 * side_room),
-                          height * (1 + 2 * margin) / place.height);
-        const double x = static_cast<double>(box.left + box.right) / 2 / grid_per_micrometre;
-        const double y = static_cast<double>(box.bottom + box.top) / 2 / grid_per_micrometre;
+        scale_ = std::max(micrometres(box.width()) * (1 + 2 * margin) / (place.width - 2 * side_room),
+                          micrometres(box.height()) * (1 + 2 * margin) / place.height);
+        const auto [x, y] = middle_of(box);
         left_ = x - scale_ * place.width / 2;
         right_ = x + scale_ * place.width / 2;
         bottom_ = y - scale_ * place.height / 2;
@@ -145,8 +144,7 @@ private:
                 const GridPoint& point = (*polygon)[i % polygon->size()];
                 if (!closed && i > 0 && point.y == 0 && (*polygon)[i - 1].y == 0)
                     data_ += '\n';
-                data_ += fmt::format("{:.10g} {:.10g}\n", static_cast<double>(point.x) / grid_per_micrometre,
-                                     static_cast<double>(point.y) / grid_per_micrometre);
+                data_ += fmt::format("{:.10g} {:.10g}\n", micrometres(point.x), micrometres(point.y));
             }
             data_ += '\n';
         }
@@ -154,30 +152,25 @@ private:
         return name;
     }
 
+    /// Plots a layer, if there is anything on it.
+    void plot(MaskLayer layer, bool closed, const std::string& style) {
+        if (by_layer_.contains(layer))
+            plots_ += (plots_.empty() ? "" : ", ") + block(layer, closed) + style;
+    }
+
     void fill(const LayerStyle& style) {
-        if (!by_layer_.contains(style.layer))
-            return;
-        if (!plots_.empty())
-            plots_ += ", ";
         // The border has the same colour, so that no seams appear between touching polygons.
-        plots_ += fmt::format("{} with filledcurves closed fc rgb '{}' fs solid border lc rgb '{}' lw 0.7",
-                              block(style.layer, true), style.colour, style.colour);
+        plot(style.layer, true,
+             fmt::format(" with filledcurves closed fc rgb '{0}' fs solid border lc rgb '{0}' lw 0.7", style.colour));
     }
 
     void outline(MaskLayer layer, const char* colour, const char* dashes = "1") {
-        if (!by_layer_.contains(layer))
-            return;
-        if (!plots_.empty())
-            plots_ += ", ";
-        plots_ += fmt::format("{} with lines lc rgb '{}' dt {} lw 1", block(layer, layer != mask_layers::back), colour,
-                              dashes);
+        plot(layer, layer != mask_layers::back, fmt::format(" with lines lc rgb '{}' dt {} lw 1", colour, dashes));
     }
 
     void page_text(const std::string& text, double x, double y) {
-        commands_ += fmt::format("set label \"{}\" at screen {:.6g},{:.6g} center\n", plain(text), x / page_width,
-                                 1 - y / page_height_);
-        commands_ += "plot NaN\n";
-        commands_ += "unset label\n";
+        commands_ += fmt::format("set label \"{}\" at screen {:.6g},{:.6g} center\nplot NaN\nunset label\n",
+                                 plain(text), x / page_width, 1 - y / page_height_);
     }
 
     void draw_device(const PageBox& place) {
@@ -201,11 +194,11 @@ private:
                      [&](const PartLabel& one) { return one.to_left == to_left; });
         std::stable_sort(here.begin(), here.end(),
                          [](const PartLabel& a, const PartLabel& b) { return a.at.y > b.at.y; });
-        const auto um = [](std::int64_t value) { return static_cast<double>(value) / grid_per_micrometre; };
         const double step = 2.2 * font_height * scale_;
         std::vector<double> places;
         for (const PartLabel& one : here)
-            places.push_back(places.empty() ? um(one.at.y) : std::min(um(one.at.y), places.back() - step));
+            places.push_back(places.empty() ? micrometres(one.at.y)
+                                            : std::min(micrometres(one.at.y), places.back() - step));
         const double least = bottom_ + 2.5 * step; // above the scale bar
         for (std::size_t i = places.size(); i-- > 0;)
             places[i] = std::max(places[i], i + 1 < places.size() ? places[i + 1] + step : least);
@@ -217,10 +210,10 @@ private:
                                      to_left ? x - 8 * scale_ : x + 8 * scale_, places[i], to_left ? "right" : "left");
             commands_ += fmt::format("set arrow from {:.10g},{:.10g} to {:.10g},{:.10g} nohead lw 0.8 lc rgb '#000000' "
                                      "front\n",
-                                     x, places[i], um(here[i].at.x), um(here[i].at.y));
+                                     x, places[i], micrometres(here[i].at.x), micrometres(here[i].at.y));
             commands_ +=
                 fmt::format("set object circle at {:.10g},{:.10g} size {:.6g} fc rgb '#000000' fs solid front\n",
-                            um(here[i].at.x), um(here[i].at.y), 2.5 * scale_);
+                            micrometres(here[i].at.x), micrometres(here[i].at.y), 2.5 * scale_);
         }
     }
 
@@ -257,9 +250,8 @@ private:
         const std::vector<const GridPolygon*>& dies = by_layer_[mask_layers::die];
         for (std::size_t i = 0; i < dies.size(); ++i) {
             const GridBox box = bounding_box(*dies[i]);
-            const double x = static_cast<double>(box.left + box.right) / 2 / grid_per_micrometre;
-            const double y = static_cast<double>(box.bottom + box.top) / 2 / grid_per_micrometre;
-            const double size = static_cast<double>(box.width()) / grid_per_micrometre, from = std::hypot(x, y);
+            const auto [x, y] = middle_of(box);
+            const double size = micrometres(box.width()), from = std::hypot(x, y);
             const double inwards = from > 0 ? 1 - (size / 2 + font_height * scale_) / from : 1;
             if (size > 2 * font_height * scale_) // numbers would cover smaller dies
                 commands_ +=

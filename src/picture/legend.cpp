@@ -1,5 +1,7 @@
 #include "picture/legend.hpp"
 
+#include "picture/figure_look.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,12 +15,9 @@ constexpr std::size_t most_entries = 24;
 constexpr double line_sample = 2.4, symbol_sample = 0.9, space = 0.5, gap_of_columns = 1.6, row_height = 1.4;
 
 double sample_of(const LegendEntry& entry) {
-    using Style = FigureSeries::Style;
     if (!entry.sampled)
         return 0;
-    const bool line = entry.style == Style::line || entry.style == Style::dashed || entry.style == Style::dotted ||
-                      entry.style == Style::impulses;
-    return line ? line_sample : symbol_sample;
+    return is_line(entry.style) || entry.style == FigureSeries::Style::impulses ? line_sample : symbol_sample;
 }
 
 /// True for entries that explain a style, independent of the colour.

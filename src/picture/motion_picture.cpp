@@ -1,5 +1,5 @@
 #include "base/special_numbers.hpp"
-#include "picture/motion_curve.hpp"
+#include "picture/curve.hpp"
 #include "picture/picture_kinds.hpp"
 
 #include "graze/study/point_motion.hpp"
@@ -14,21 +14,11 @@ namespace graze {
 
 namespace {
 
-/// A copy of the picture for each point that it shows.
-std::vector<StudyPicture> one_for_each_point(const StudyPicture& picture) {
-    std::vector<StudyPicture> chosen;
-    for (const auto& at : picture.at) {
-        chosen.push_back(picture);
-        chosen.back().at = {at};
-    }
-    if (chosen.empty())
-        chosen.push_back(picture);
-    return chosen;
-}
-
-std::string title_of_motion(const StudyPicture& one, const StoredRun& run, const PointRecord& point) {
-    std::string title = one.at.empty() ? shown_name(one, run.record.name)
-                                       : shown_value(one, run, one.at.front().first, one.at.front().second);
+/// @param at the value to which the point is nearest, if the picture chooses one
+std::string title_of_motion(const StudyPicture& picture, const StoredRun& run, const PointRecord& point,
+                            const std::vector<std::pair<std::string, double>>& at) {
+    std::string title = at.empty() ? shown_name(picture, run.record.name)
+                                   : shown_value(picture, run, at.front().first, at.front().second);
     if (point.result.label == Label::periodic)
         title += fmt::format(": period {}", point.result.period);
     else if (run.record.kind != "simulate" && run.record.kind != "record")
@@ -40,15 +30,15 @@ std::string title_of_motion(const StudyPicture& one, const StoredRun& run, const
 /// thousand parts, a portrait to its last rows.
 std::vector<PlanePoint> seen_rows(std::vector<PlanePoint> points, const StudyPicture& picture, bool portrait) {
     constexpr std::size_t parts = 1000, most_of_portrait = 20'000;
-    if (!portrait && picture.x_range)
+    if (portrait) {
+        points.erase(points.begin(),
+                     points.end() - static_cast<std::ptrdiff_t>(std::min(points.size(), most_of_portrait)));
+        return points;
+    }
+    if (picture.x_range)
         std::erase_if(points, [&](const PlanePoint& point) {
             return point.x < picture.x_range->first || point.x > picture.x_range->second;
         });
-    if (portrait) {
-        if (points.size() > most_of_portrait)
-            points.erase(points.begin(), points.end() - static_cast<std::ptrdiff_t>(most_of_portrait));
-        return points;
-    }
     if (points.size() <= 4 * parts)
         return points;
     std::vector<PlanePoint> seen;
@@ -59,12 +49,8 @@ std::vector<PlanePoint> seen_rows(std::vector<PlanePoint> points, const StudyPic
             least = points[i].y < points[least].y ? i : least;
             greatest = points[i].y > points[greatest].y ? i : greatest;
         }
-        std::size_t before = points.size();
-        for (const std::size_t i : {first, std::min(least, greatest), std::max(least, greatest), last})
-            if (i != before) {
-                seen.push_back(points[i]);
-                before = i;
-            }
+        for (const std::size_t i : std::set<std::size_t>{first, least, greatest, last})
+            seen.push_back(points[i]);
     }
     return seen;
 }
@@ -83,17 +69,17 @@ std::vector<PlanePoint> jumps_of(const DenseMotion& motion, std::size_t value) {
 /// Adds the motions of points to the panels of a figure, one after the other.
 class MotionPanels {
 public:
-    MotionPanels(const StudyPicture& picture, MotionView view)
-        : picture_(&picture), view_(view), portrait_(view != MotionView::history) {}
+    explicit MotionPanels(const StudyPicture& picture) : picture_(&picture), portrait_(picture.kind != "history") {}
 
-    void add(const StoredRun& run, const StudyPicture& one) {
+    /// @param at the value to which the point is nearest, if the picture chooses one
+    void add(const StoredRun& run, const std::vector<std::pair<std::string, double>>& at) {
         const std::vector<std::string> values = chosen_values(*picture_, run);
         const std::string x = !portrait_ ? "t" : picture_->x.empty() ? values.front() : picture_->x;
-        const PointRecord point = chosen_point(run, one.at, one.directions, one.place);
+        const PointRecord point = chosen_point(run, at, picture_->directions, picture_->place);
         if (!shown_.insert({run.record.name, point.number}).second)
             return; // the point is nearest to two of the requested values
         const bool curve =
-            view_ != MotionView::section && (run.record.kind == "simulate" || point.result.label == Label::periodic);
+            picture_->kind != "poincare" && (run.record.kind == "simulate" || point.result.label == Label::periodic);
         std::vector<std::string> names{x};
         for (const std::string& value : values)
             if (!portrait_ || picture_->x.empty() ? value != x : true)
@@ -104,7 +90,7 @@ public:
         DenseMotion motion;
         if (curve)
             motion = dense_motion(run, point, names, picture_->place, portrait_ ? WhenLong::last : WhenLong::coarser);
-        const std::string title = title_of_motion(one, run, point);
+        const std::string title = title_of_motion(*picture_, run, point, at);
         for (std::size_t v = 1; v < names.size(); ++v) {
             FigurePanel& panel = panel_for(run, x, names[v], v - 1, title);
             if (curve)
@@ -144,7 +130,7 @@ private:
         panel.series.push_back(
             {is_titled() ? "" : title, FigureSeries::Style::line, colour, curve_of(motion, 0, value)});
         panel.series.push_back({"jump", FigureSeries::Style::dotted, FigureSeries::black, jumps_of(motion, value)});
-        FigureSeries impacts{"impact", FigureSeries::Style::symbols, FigureSeries::black, {}};
+        FigureSeries impacts{"impact", FigureSeries::Style::symbols, FigureSeries::black};
         for (const std::size_t row : motion.impacts)
             impacts.points.push_back({motion.values[0][row], motion.values[value][row]});
         if (impacts.points.size() <= most_marked)
@@ -175,8 +161,7 @@ private:
                                             : style,
                                 portrait_ && !over_ ? is_line ? 7 : points
                                 : is_point          ? colour_ + 1 + points
-                                                    : colour_,
-                                {}};
+                                                    : colour_};
             points += is_record ? 0 : 1;
             for (std::size_t i = 0; i < std::min(xs.size(), ys.size()); ++i)
                 series.points.push_back({xs[i], ys[i]});
@@ -185,16 +170,15 @@ private:
             // Circles on the lines of a history have the colours of the lines; the legend explains them once.
             const bool on_line = !portrait_ && run.record.kind != "record" && !series.points.empty();
             panel.series.push_back(std::move(series));
-            if (on_line) {
-                FigureSeries meaning{shown_name(*picture_, samplings[s]), style, FigureSeries::black, {}};
-                meaning.only_in_legend = true;
-                panel.series.push_back(std::move(meaning));
-            }
+            if (on_line)
+                panel.series.push_back({.title = shown_name(*picture_, samplings[s]),
+                                        .style = style,
+                                        .colour = FigureSeries::black,
+                                        .only_in_legend = true});
         }
     }
 
     const StudyPicture* picture_;
-    MotionView view_;
     bool portrait_, over_ = false;
     std::set<std::pair<std::string, std::size_t>> shown_; ///< runs and points that are drawn already
     Figure figure_;
@@ -203,19 +187,21 @@ private:
 
 } // namespace
 
-Figure motion_picture(const StudyPicture& picture, const ResultFile& file, MotionView view) {
-    MotionPanels panels(picture, view);
+ResultPicture motion_picture(const StudyPicture& picture, const ResultFile& file) {
+    MotionPanels panels(picture);
     const auto add = [&](const std::vector<std::string>& names) {
         for (const std::string& name : names) {
             const StoredRun run(file, name, picture.place);
-            for (const StudyPicture& one : one_for_each_point(picture))
-                panels.add(run, one);
+            if (picture.at.empty())
+                panels.add(run, {});
+            for (const auto& at : picture.at)
+                panels.add(run, {at});
         }
     };
     add(picture.runs);
     panels.draw_over();
     add(picture.over);
-    return panels.take();
+    return {panels.take()};
 }
 
 } // namespace graze

@@ -5,21 +5,21 @@
 #include "graze/results/stored_orbit.hpp"
 #include "graze/study/plain_states.hpp"
 #include "graze/symbolic/function.hpp"
-#include "picture/motion_curve.hpp"
+#include "picture/box.hpp"
+#include "picture/curve.hpp"
 #include "picture/picture_kinds.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace graze {
 
 namespace {
 
 constexpr std::size_t drawn_samples = 2000, most_default_orbits = 6;
-constexpr PlanePoint interruption{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+constexpr PlanePoint interruption{not_a_number, not_a_number};
 
 std::size_t nearest_number(const StoredRun& run, const StudyPicture& picture,
                            const std::pair<std::string, double>& at) {
@@ -64,10 +64,11 @@ struct Axes {
     bool over_time = false;
 };
 
-Axes axes_of(const Model& model, const StudyPicture& picture, bool portrait) {
+Axes axes_of(const Model& model, const StudyPicture& picture) {
     Axes axes;
     std::vector<std::string> names = picture.y, pair = default_portrait(model);
-    axes.over_time = !portrait || picture.x == "t" || (picture.x.empty() && names.empty() && pair.empty());
+    axes.over_time =
+        picture.kind != "portrait" || picture.x == "t" || (picture.x.empty() && names.empty() && pair.empty());
     if (names.empty() && axes.over_time)
         names = plain_states(model);
     else if (names.empty() && !pair.empty())
@@ -94,11 +95,11 @@ struct DrawnOrbit {
     Axes axes;
 };
 
-DrawnOrbit drawn_orbit(const StoredRun& run, OrbitRecord record, const StudyPicture& picture, bool portrait) {
+DrawnOrbit drawn_orbit(const StoredRun& run, OrbitRecord record, const StudyPicture& picture) {
     const Orbit orbit = whole_orbit(System(run.model), record.point.solution.orbit);
     DrawnOrbit drawn{
         std::move(record), orbit_motion(run.model, orbit, drawn_samples), {}, model_at(run.model, orbit), {}};
-    drawn.axes = axes_of(drawn.model, picture, portrait);
+    drawn.axes = axes_of(drawn.model, picture);
     QuantityEvaluator evaluate(drawn.model, drawn.axes.values);
     for (const SegmentMotion& segment : drawn.motion) {
         auto& columns = drawn.values.emplace_back(drawn.axes.values.size());
@@ -170,14 +171,14 @@ public:
 private:
     /// Ranges of the curves in x and y.
     PlanePoint extent() const {
-        PlanePoint least{infinity, infinity}, greatest{-infinity, -infinity};
+        Extent x, y;
         for (std::size_t s = 0; s < orbit_.motion.size(); ++s)
             for (std::size_t row = 0; row < orbit_.motion[s].times.size(); ++row) {
                 const PlanePoint here = at(s, row);
-                least = {std::min(least.x, here.x), std::min(least.y, here.y)};
-                greatest = {std::max(greatest.x, here.x), std::max(greatest.y, here.y)};
+                x.add(here.x);
+                y.add(here.y);
             }
-        return {greatest.x - least.x, greatest.y - least.y};
+        return {x.greatest - x.least, y.greatest - y.least};
     }
     bool is_interrupted(const PlanePoint& a, const PlanePoint& b) const {
         const std::vector<double>& periods = orbit_.axes.periods;
@@ -229,9 +230,7 @@ void add_curves(FigurePanel& panel, const StudyPicture& picture, const DrawnOrbi
     if (point.type == PointType::grazing && !point.at_end && point.segment < orbit.motion.size() &&
         !orbit.motion[point.segment].times.empty()) {
         const PlanePoint touch = curves.at_time(point.segment, point.time);
-        FigureSeries mark{"touch", FigureSeries::Style::symbols, FigureSeries::black, {touch}};
-        mark.symbol = 12;
-        panel.series.push_back(std::move(mark));
+        panel.series.push_back({"touch", FigureSeries::Style::symbols, FigureSeries::black, {touch}, 12});
         panel.labels.push_back({touch, shown_name(picture, orbit.model.events[point.event].name)});
     }
 }
@@ -248,7 +247,7 @@ FigurePanel history_panel(const StudyPicture& picture, const DrawnOrbit& orbit, 
 
 } // namespace
 
-Figure orbit_picture(const StudyPicture& picture, const ResultFile& file, bool portrait) {
+ResultPicture orbit_picture(const StudyPicture& picture, const ResultFile& file) {
     Figure figure;
     std::vector<DrawnOrbit> orbits;
     std::vector<std::string> titles;
@@ -260,7 +259,7 @@ Figure orbit_picture(const StudyPicture& picture, const ResultFile& file, bool p
             const bool has_name = run.record.kind == "orbit";
             all_alone = all_alone && has_name;
             titles.push_back(picture.runs.size() > 1 && !has_name ? shown_name(picture, name) + ", " + title : title);
-            orbits.push_back(drawn_orbit(run, std::move(record), picture, portrait));
+            orbits.push_back(drawn_orbit(run, std::move(record), picture));
         }
     }
     const bool together = all_alone && orbits.size() > 1; // single orbits share one panel, for comparison
@@ -284,7 +283,7 @@ Figure orbit_picture(const StudyPicture& picture, const ResultFile& file, bool p
         }
     }
     figure.columns = figure.panels.size() > 1 && !orbits.front().axes.over_time ? 2 : 1;
-    return figure;
+    return {std::move(figure)};
 }
 
 } // namespace graze

@@ -3,6 +3,7 @@
 #include "picture/curve.hpp"
 #include "picture/figure_layout.hpp"
 
+#include <cstddef>
 #include <vector>
 
 namespace graze {
@@ -32,5 +33,9 @@ std::vector<Polyline> dashes_of(const Polyline& line, const DashPattern& pattern
 /// Equidistant points on the part of a line within the frame.
 /// @param first distance of the first point from the beginning of the line
 std::vector<PlanePoint> spread_along(const Polyline& line, double distance, double first, const Box& frame);
+
+/// For each series of a panel, the number of colours that are drawn later and cover most of its line; it must be drawn
+/// wider to be visible. At most 2; all lines of a colour have the same number, series that are no lines have 0.
+std::vector<std::size_t> covering_lines(const FigurePanel& panel, const PanelLayout& layout);
 
 } // namespace graze

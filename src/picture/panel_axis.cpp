@@ -1,12 +1,12 @@
 #include "picture/panel_axis.hpp"
 
+#include "picture/box.hpp"
 #include "picture/curve.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace graze {
 
@@ -18,14 +18,6 @@ constexpr double roomy_margin = 0.08, usual_margin = 0.03;
 constexpr double resolution = 1e-9;
 constexpr int least_power = -3, greatest_power = 5; ///< numbers outside these powers of ten get a common factor
 constexpr int most_tics = 6;
-
-struct Extent {
-    double least = std::numeric_limits<double>::infinity(), greatest = -std::numeric_limits<double>::infinity();
-    void add(double value) {
-        least = std::min(least, value);
-        greatest = std::max(greatest, value);
-    }
-};
 
 bool is_within(double value, const std::optional<std::pair<double, double>>& range) {
     return !range || (value >= range->first && value <= range->second);
@@ -148,7 +140,7 @@ double PanelAxis::value_at(double share) const {
 
 double PanelAxis::share(double value) const {
     if (logarithmic)
-        return value > 0 ? std::log(value / low) / std::log(high / low) : std::numeric_limits<double>::quiet_NaN();
+        return value > 0 ? std::log(value / low) / std::log(high / low) : not_a_number;
     return (value - low) / (high - low);
 }
 

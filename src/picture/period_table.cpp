@@ -37,7 +37,7 @@ protected:
     virtual void begin_record(const std::string& file) = 0;
     virtual void add_period(const std::string& file, const Period& period) = 0;
     /// @param amplitude of the reference, averaged over the record
-    virtual void end_record(const std::string& file, double amplitude) = 0;
+    virtual void end_record(const std::string& /*file*/, double /*amplitude*/) {}
     const RecordHeader& header() const { return header_; }
     const std::vector<std::size_t>& channels() const { return channels_; }
     std::size_t reference() const { return reference_; }
@@ -54,14 +54,12 @@ class Periods : public PeriodTable {
 public:
     using PeriodTable::PeriodTable;
     Figure figure() const override {
-        FigurePanel panel;
-        label_x(panel, {"begin of period", time_unit()});
-        label_y(panel, {"its duration", time_unit()});
-        panel.roomy_y = true;
-        panel.series.push_back({"", FigureSeries::Style::dots, 0, points_});
-        Figure figure;
-        figure.panels.push_back(std::move(panel));
-        return figure;
+        return {.panels = {{.x_label = "begin of period",
+                            .y_label = "its duration",
+                            .x_unit = time_unit(),
+                            .y_unit = time_unit(),
+                            .roomy_y = true,
+                            .series = {{.points = points_}}}}};
     }
 
 protected:
@@ -73,14 +71,11 @@ protected:
     }
     void add_period(const std::string& file, const Period& period) override {
         begin_row(file);
-        rows().add(static_cast<double>(period.number));
-        rows().add(period.begin);
-        rows().add(period.duration());
+        rows().add(static_cast<double>(period.number), period.begin, period.duration());
         for (const std::size_t c : channels())
             rows().add(amplitude(period, c));
         points_.push_back({period.begin, period.duration()});
     }
-    void end_record(const std::string&, double) override {}
 
 private:
     std::vector<PlanePoint> points_;
@@ -102,8 +97,7 @@ public:
             panel.roomy_y = panel.roomy_x = true;
             for (std::size_t phase = 0; phase < request().phases.size(); ++phase)
                 for (const bool image : {false, true}) {
-                    FigureSeries series;
-                    series.colour = 2 * phase + (image ? 1 : 0);
+                    FigureSeries series{.colour = 2 * phase + (image ? 1 : 0)};
                     if (request().phases.size() > 1 || !request().negated.empty())
                         series.title = fmt::format("phase {}{}", request().phases[phase], image ? ", image" : "");
                     for (const Drawn& point : drawn_)
@@ -136,9 +130,8 @@ protected:
     void add_period(const std::string&, const Period& period) override {
         for (std::size_t phase = 0; phase < request().phases.size(); ++phase) {
             drawn_.push_back({section(period, request().phases[phase]), phase, 0});
-            if (request().negated.empty())
-                continue;
-            drawn_.push_back({image_section(period, request().phases[phase], symmetry_), phase, 0});
+            if (!request().negated.empty())
+                drawn_.push_back({image_section(period, request().phases[phase], symmetry_), phase, 0});
         }
     }
     void end_record(const std::string& file, double amplitude) override {
@@ -146,12 +139,10 @@ protected:
             Drawn& point = drawn_[i];
             point.amplitude = amplitude;
             begin_row(file);
-            rows().add(static_cast<double>(point.section.period));
-            rows().add(request().phases[point.phase]);
+            rows().add(static_cast<double>(point.section.period), request().phases[point.phase]);
             if (!request().negated.empty())
                 rows().add(point.section.image ? "yes" : "no");
-            rows().add(point.section.time);
-            rows().add(point.amplitude);
+            rows().add(point.section.time, point.amplitude);
             for (const std::size_t c : channels())
                 rows().add(point.section.values[c]);
         }
@@ -191,11 +182,11 @@ protected:
         std::vector<Table::Column> columns{{"period", ""}, {"begin", time_unit()}};
         for (const std::size_t c : channels()) {
             const Channel& channel = header().channels[c];
-            columns.push_back({channel.name + "_least", channel.unit});
-            columns.push_back({channel.name + "_least_time", time_unit()});
-            columns.push_back({channel.name + "_greatest", channel.unit});
-            columns.push_back({channel.name + "_greatest_time", time_unit()});
-            columns.push_back({channel.name + "_peak_to_peak", channel.unit});
+            columns.insert(columns.end(), {{channel.name + "_least", channel.unit},
+                                           {channel.name + "_least_time", time_unit()},
+                                           {channel.name + "_greatest", channel.unit},
+                                           {channel.name + "_greatest_time", time_unit()},
+                                           {channel.name + "_peak_to_peak", channel.unit}});
         }
         begin(columns);
         least_.resize(channels().size());
@@ -203,18 +194,14 @@ protected:
     }
     void add_period(const std::string& file, const Period& period) override {
         begin_row(file);
-        rows().add(static_cast<double>(period.number));
-        rows().add(period.begin);
+        rows().add(static_cast<double>(period.number), period.begin);
         for (std::size_t k = 0; k < channels().size(); ++k) {
             const Extremes found = extremes(period, channels()[k]);
-            for (const double value :
-                 {found.least, found.least_time, found.greatest, found.greatest_time, found.peak_to_peak()})
-                rows().add(value);
+            rows().add(found.least, found.least_time, found.greatest, found.greatest_time, found.peak_to_peak());
             least_[k].push_back({period.begin, found.least});
             greatest_[k].push_back({period.begin, found.greatest});
         }
     }
-    void end_record(const std::string&, double) override {}
 
 private:
     std::vector<std::vector<PlanePoint>> least_, greatest_;

@@ -3,15 +3,40 @@
 #include "graze/base/input_error.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/study/stored_study.hpp"
+#include "picture/box.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
 
 namespace graze {
+
+namespace {
+
+/// The look of points without an attractor: gnuplot's symbol for points, gnuplot's pattern for cells.
+struct LabelLook {
+    Label label;
+    std::size_t colour;
+    int symbol, hatch;
+};
+
+constexpr std::array<LabelLook, 8> label_looks{{
+    {Label::unsettled, FigureSeries::grey, 2, 4},
+    {Label::transient, FigureSeries::grey, 6, 3},
+    {Label::escaped, FigureSeries::grey, 1, 5},
+    {Label::unbounded, FigureSeries::grey, 8, 7},
+    {Label::ended, FigureSeries::grey, 4, 6},
+    {Label::chattering, FigureSeries::grey, 10, 1},
+    {Label::singular, FigureSeries::black, 12, 2},
+    {Label::failed, FigureSeries::black, 3, 0},
+}};
+
+} // namespace
 
 std::vector<std::string> chosen_values(const StudyPicture& picture, const StoredRun& run) {
     if (!picture.y.empty())
@@ -82,23 +107,16 @@ std::string panel_letter(std::size_t index) {
 }
 
 void drop_constant_panels(Figure& figure) {
-    std::map<std::string, std::pair<double, double>> extents; // range of each y label over all its panels
+    std::map<std::string, Extent> extents; // of each y label over all its panels
     for (const FigurePanel& panel : figure.panels)
         for (const FigureSeries& series : panel.series)
             for (const PlanePoint& point : series.points)
-                if (std::isfinite(point.y)) {
-                    const auto at = extents.try_emplace(panel.y_label, point.y, point.y).first;
-                    at->second.first = std::min(at->second.first, point.y);
-                    at->second.second = std::max(at->second.second, point.y);
-                }
-    const auto changes = [&](const FigurePanel& panel) {
-        const auto at = extents.find(panel.y_label);
-        return at != extents.end() && !is_constant(at->second.first, at->second.second);
-    };
+                if (std::isfinite(point.y))
+                    extents[panel.y_label].add(point.y);
     std::set<std::string> all, kept;
     for (const FigurePanel& panel : figure.panels) {
         all.insert(panel.y_label);
-        if (changes(panel))
+        if (const Extent& range = extents[panel.y_label]; !is_constant(range.least, range.greatest))
             kept.insert(panel.y_label);
     }
     if (kept.empty() || kept.size() == all.size())
@@ -136,6 +154,42 @@ std::vector<double> samples_of(const PointRecord& point, const StoredRun& run, c
                 times->push_back(samples.times[s]);
         }
     return result;
+}
+
+DrawnAs drawn_as(std::string_view label) {
+    for (const Label settled : {Label::periodic, Label::quasi_periodic, Label::chaotic, Label::equilibrium})
+        if (label == name_of(settled))
+            return DrawnAs::attractor;
+    return label == name_of(Label::unsettled) || label == name_of(Label::transient) ? DrawnAs::uncertain
+                                                                                    : DrawnAs::nothing;
+}
+
+bool seeks_attractors(const RunRecord& run) {
+    const auto kind = run_kind(run.kind);
+    return kind && seeks_attractors(*kind);
+}
+
+std::string note_of_left_out(const StoredRun& run, const std::vector<std::string>& directions) {
+    if (!seeks_attractors(run.record))
+        return "";
+    std::map<std::string, std::size_t> counts;
+    std::size_t all = 0;
+    auto rows = run.rows({.columns = {"label"}, .directions = directions});
+    for (; rows.next(); ++all)
+        if (const std::string label = rows.text(0); drawn_as(label) == DrawnAs::nothing)
+            ++counts[label];
+    std::vector<std::string> parts;
+    for (const auto& [label, count] : counts)
+        parts.push_back(fmt::format("{} {}", count, label));
+    return parts.empty() ? ""
+                         : fmt::format("without an attractor, not drawn: {} of {} points", fmt::join(parts, ", "), all);
+}
+
+FigureSeries series_of_label(std::string_view label) {
+    const auto found = std::find_if(label_looks.begin(), label_looks.end(),
+                                    [&](const LabelLook& one) { return label == name_of(one.label); });
+    const LabelLook& look = found == label_looks.end() ? label_looks.front() : *found;
+    return {.style = FigureSeries::Style::symbols, .colour = look.colour, .symbol = look.symbol, .hatch = look.hatch};
 }
 
 } // namespace graze

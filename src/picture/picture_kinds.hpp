@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace graze {
@@ -42,21 +43,41 @@ std::vector<double> samples_of(const PointRecord& point, const StoredRun& run, c
 /// panels are consecutive.
 void drop_constant_panels(Figure& figure);
 
-Figure bifurcation_picture(const StudyPicture& picture, const ResultFile& file);
-/// The attractor that is reached over two varied coordinates. @param map show only the kind of attractor
-ResultPicture basin_picture(const StudyPicture& picture, const ResultFile& file, bool map);
+/// How a picture draws a motion with a label (of the enumeration Label).
+enum class DrawnAs {
+    attractor, ///< the motion has settled
+    uncertain, ///< the motion has not settled: drawn as crosses, which the legend explains
+    nothing    ///< the motion ended, is unbounded or failed: not drawn, but counted under the picture
+};
+
+/// @param label name of a Label, as in result files
+DrawnAs drawn_as(std::string_view label);
+/// True for runs whose points should be attractors: sweeps and basins.
+bool seeks_attractors(const RunRecord& run);
+
+/// A sentence with the numbers of points that are not drawn, by label; empty if all are drawn.
+/// @param directions only points of these; empty: all
+std::string note_of_left_out(const StoredRun& run, const std::vector<std::string>& directions);
+
+/// A series of points without an attractor, whose colour, symbol and, for cells, hatch show their label.
+/// @param label name of a Label
+FigureSeries series_of_label(std::string_view label);
+
+// Pictures of each kind.
+ResultPicture bifurcation_picture(const StudyPicture& picture, const ResultFile& file);
+/// The attractor that is reached over two varied coordinates; a map shows only the kind of attractor.
+ResultPicture basin_picture(const StudyPicture& picture, const ResultFile& file);
 ResultPicture spectrum_picture(const StudyPicture& picture, const ResultFile& file);
-/// View of a motion: values over time, values over another value, or only samples over another value.
-enum class MotionView { history, portrait, section };
-/// Motions of points: one panel for each value (histories), or for each point and value.
-Figure motion_picture(const StudyPicture& picture, const ResultFile& file, MotionView view);
-/// The same for orbits of branches, along their computed segments.
-Figure orbit_picture(const StudyPicture& picture, const ResultFile& file, bool portrait);
+/// Motions of points: values over time in one panel for each value (history), or in a panel for each point and value
+/// over another value (portrait), or only samples over another value (poincare).
+ResultPicture motion_picture(const StudyPicture& picture, const ResultFile& file);
+/// Histories and portraits of orbits of branches, along their computed segments.
+ResultPicture orbit_picture(const StudyPicture& picture, const ResultFile& file);
 /// Branches of orbits: one panel for each monitor.
-Figure branch_picture(const StudyPicture& picture, const ResultFile& file);
+ResultPicture branch_picture(const StudyPicture& picture, const ResultFile& file);
 ResultPicture regression_picture(const StudyPicture& picture, const ResultFile& file);
-Figure scatter_picture(const StudyPicture& picture, const ResultFile& file);
+ResultPicture scatter_picture(const StudyPicture& picture, const ResultFile& file);
 /// Measured and fitted values and residuals of runs of kind identify.
-Figure residual_picture(const StudyPicture& picture, const ResultFile& file);
+ResultPicture residual_picture(const StudyPicture& picture, const ResultFile& file);
 
 } // namespace graze

@@ -88,15 +88,9 @@ public:
             label_x(panel, time_);
             label_y(panel, channel);
             panel.roomy_y = true;
-            for (const auto& [file, curve] : curves_.at(channel.name)) {
-                FigureSeries series;
-                series.style = FigureSeries::Style::line;
-                series.colour = panel.series.size();
-                series.points = curve.points();
-                if (titled)
-                    series.title = file;
-                panel.series.push_back(std::move(series));
-            }
+            for (const auto& [file, curve] : curves_.at(channel.name))
+                panel.series.push_back(
+                    {titled ? file : "", FigureSeries::Style::line, panel.series.size(), curve.points()});
             figure.panels.push_back(std::move(panel));
         }
         return figure;
@@ -144,14 +138,10 @@ public:
         }
         for (std::size_t c = 0; c < channels.size(); ++c) {
             begin_row(file);
-            rows().add(header.channels[channels[c]].name);
-            rows().add(header.channels[channels[c]].unit);
+            rows().add(header.channels[channels[c]].name, header.channels[channels[c]].unit);
             numbers[c].put(rows());
-            rows().add(count);
-            rows().add(count > 0 ? first : not_a_number);
-            rows().add(count > 0 ? last : not_a_number);
-            rows().add(count > 1 ? steps.least : not_a_number);
-            rows().add(count > 1 ? steps.greatest : not_a_number);
+            rows().add(count, count > 0 ? first : not_a_number, count > 0 ? last : not_a_number,
+                       count > 1 ? steps.least : not_a_number, count > 1 ? steps.greatest : not_a_number);
         }
     }
     Figure figure() const override { return histories_.figure(several()); }
@@ -212,40 +202,28 @@ public:
     SpectrumTable(const RecordTableRequest& request, bool several) : RecordTable(request, several) {}
     void add(const std::string& file, ProcessedRecord& record) override {
         const RecordHeader header = record.header();
-        const std::vector<std::size_t> channels = channels_of(header);
-        if (channels.size() != 1)
-            throw InputError("a spectrum is that of one channel", "name it by " + option("channel"));
-        const Channel& channel = header.channels[channels.front()];
+        const std::size_t which = only_channel(header, "a spectrum is that of one channel");
+        const Channel& channel = header.channels[which];
         begin({{"frequency", inverse(header.time.unit)}, {"amplitude", channel.unit}});
         Spectrum found;
         if (request().part > 0) {
-            found = averaged_spectrum(record.source(), channels.front(), request().part);
+            found = averaged_spectrum(record.source(), which, request().part);
         } else {
             constexpr std::size_t most = 4'000'000;
             const Samples all = read_all(record.source(), most);
-            found = spectrum(all.values[channels.front()], even_sampling_frequency(all.times));
+            found = spectrum(all.values[which], even_sampling_frequency(all.times));
         }
-        FigureSeries series;
-        series.title = several() ? file : "";
-        series.style = FigureSeries::Style::line;
-        series.colour = panel_.series.size();
+        FigureSeries series{several() ? file : "", FigureSeries::Style::line, panel_.series.size()};
         for (std::size_t k = 0; k < found.frequencies.size(); ++k) {
             begin_row(file);
-            rows().add(found.frequencies[k]);
-            rows().add(found.amplitudes[k]);
+            rows().add(found.frequencies[k], found.amplitudes[k]);
             series.points.push_back({found.frequencies[k], found.amplitudes[k]});
         }
-        panel_.x_label = "frequency";
-        panel_.x_unit = inverse(header.time.unit);
-        panel_.y_label = "amplitude of " + channel.name;
-        panel_.y_unit = channel.unit;
+        label_x(panel_, {"frequency", inverse(header.time.unit)});
+        label_y(panel_, {"amplitude of " + channel.name, channel.unit});
         panel_.series.push_back(std::move(series));
     }
-    Figure figure() const override {
-        Figure figure;
-        figure.panels.push_back(panel_);
-        return figure;
-    }
+    Figure figure() const override { return {.panels = {panel_}}; }
 
 private:
     static std::string inverse(const std::string& unit) {
@@ -259,10 +237,7 @@ public:
     ImpactTable(const RecordTableRequest& request, bool several) : RecordTable(request, several) {}
     void add(const std::string& file, ProcessedRecord& record) override {
         const RecordHeader header = record.header();
-        const std::vector<std::size_t> channels = channels_of(header);
-        if (channels.size() != 1)
-            throw InputError("impacts are jumps of one channel, a velocity", "name it by " + option("channel"));
-        velocity_ = header.channels[channels.front()];
+        velocity_ = header.channels[only_channel(header, "impacts are jumps of one channel, a velocity")];
         begin({{"time", header.time.unit},
                {"time_error", header.time.unit},
                {"before", velocity_.unit},
@@ -276,26 +251,23 @@ public:
         while (finder.next(impacts))
             for (const RecordedImpact& impact : impacts) {
                 begin_row(file);
-                for (const double value : {impact.time, impact.time_error, impact.before, impact.before_error,
-                                           impact.after, impact.after_error, -impact.after / impact.before})
-                    rows().add(value);
+                rows().add(impact.time, impact.time_error, impact.before, impact.before_error, impact.after,
+                           impact.after_error, -impact.after / impact.before);
             }
     }
     /// Velocities after impacts over velocities before.
     Figure figure() const override {
-        FigurePanel panel;
-        panel.x_label = velocity_.name + " before an impact";
-        panel.y_label = velocity_.name + " after it";
-        panel.x_unit = panel.y_unit = velocity_.unit;
-        panel.roomy_x = panel.roomy_y = true;
-        FigureSeries& series = panel.series.emplace_back();
-        series.style = FigureSeries::Style::circles;
+        FigureSeries series{.style = FigureSeries::Style::circles};
         const std::size_t before = several() ? 3 : 2;
         for (std::size_t row = 0; row < table().rows(); ++row)
             series.points.push_back({table().number(row, before), table().number(row, before + 2)});
-        Figure figure;
-        figure.panels.push_back(std::move(panel));
-        return figure;
+        return {.panels = {{.x_label = velocity_.name + " before an impact",
+                            .y_label = velocity_.name + " after it",
+                            .x_unit = velocity_.unit,
+                            .y_unit = velocity_.unit,
+                            .roomy_y = true,
+                            .roomy_x = true,
+                            .series = {std::move(series)}}}};
     }
 
 private:
@@ -309,10 +281,9 @@ std::vector<std::string> record_table_names() {
 }
 
 void RecordTable::begin(const std::vector<Table::Column>& columns) {
-    std::vector<Table::Column> all;
+    std::vector<Table::Column> all = columns;
     if (several_)
-        all.push_back({"file", ""});
-    all.insert(all.end(), columns.begin(), columns.end());
+        all.insert(all.begin(), {"file", ""});
     if (!begun_)
         table_ = Table(all);
     else if (!std::equal(all.begin(), all.end(), table_.columns().begin(), table_.columns().end(),
@@ -347,22 +318,23 @@ void require_few_rows(const Table& table, const std::string& asked_as) {
             fmt::format("write the record to a file by {0}write, or take a part of it by {0}from and {0}to", asked_as));
 }
 
+std::size_t RecordTable::only_channel(const RecordHeader& header, const char* problem) const {
+    const std::vector<std::size_t> channels = channels_of(header);
+    if (channels.size() != 1)
+        throw InputError(problem, "name it by " + option("channel"));
+    return channels.front();
+}
+
 std::unique_ptr<RecordTable> record_table(const RecordTableRequest& request, bool several) {
     using What = RecordTableRequest::What;
-    switch (request.what) {
-    case What::channels:
+    if (request.what == What::channels)
         return std::make_unique<ChannelTable>(request, several);
-    case What::samples:
+    if (request.what == What::samples)
         return std::make_unique<SampleTable>(request, several);
-    case What::spectrum:
+    if (request.what == What::spectrum)
         return std::make_unique<SpectrumTable>(request, several);
-    case What::impacts:
+    if (request.what == What::impacts)
         return std::make_unique<ImpactTable>(request, several);
-    case What::periods:
-    case What::sections:
-    case What::extremes:
-        break;
-    }
     if (request.reference.empty())
         throw InputError(fmt::format("nothing says what begins the periods of which {} are asked for",
                                      record_table_names()[static_cast<std::size_t>(request.what)]),

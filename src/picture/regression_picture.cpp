@@ -1,4 +1,4 @@
-#include "picture/drawn_labels.hpp"
+#include "picture/box.hpp"
 #include "picture/picture_kinds.hpp"
 
 #include "graze/results/regression.hpp"
@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <map>
 
 namespace graze {
@@ -45,7 +44,7 @@ std::map<double, std::vector<PlanePoint>> groups_of(const StudyPicture& picture,
 /// The regression line, and the range of x of its points.
 struct RegressionLine {
     Regression line;
-    double least = std::numeric_limits<double>::infinity(), greatest = -least;
+    Extent range;
 };
 
 RegressionLine fit_of(const StudyPicture& picture, const std::vector<PlanePoint>& points) {
@@ -57,8 +56,7 @@ RegressionLine fit_of(const StudyPicture& picture, const std::vector<PlanePoint>
             continue;
         xs.push_back(picture.logarithmic_x ? std::log10(point.x) : point.x);
         ys.push_back(picture.logarithmic_y ? std::log10(point.y) : point.y);
-        fit.least = std::min(fit.least, point.x);
-        fit.greatest = std::max(fit.greatest, point.x);
+        fit.range.add(point.x);
     }
     fit.line = regression(xs, ys);
     return fit;
@@ -68,10 +66,8 @@ FigureSeries fitted_line(const StudyPicture& picture, const RegressionLine& fit,
                          std::size_t colour) {
     const Regression& line = fit.line;
     FigureSeries series{fmt::format("{}slope {:.4f}, intercept {:.4f}", title, line.slope, line.intercept),
-                        FigureSeries::Style::line,
-                        colour,
-                        {}};
-    for (const double end : {fit.least, fit.greatest}) {
+                        FigureSeries::Style::line, colour};
+    for (const double end : {fit.range.least, fit.range.greatest}) {
         const double at = line.intercept + line.slope * (picture.logarithmic_x ? std::log10(end) : end);
         series.points.push_back({end, picture.logarithmic_y ? std::pow(10, at) : at});
     }
@@ -120,7 +116,7 @@ ResultPicture regression_picture(const StudyPicture& picture, const ResultFile& 
     return result;
 }
 
-Figure scatter_picture(const StudyPicture& picture, const ResultFile& file) {
+ResultPicture scatter_picture(const StudyPicture& picture, const ResultFile& file) {
     Figure figure;
     for (std::size_t r = 0; r < picture.runs.size(); ++r) {
         const StoredRun run(file, picture.runs[r], picture.place);
@@ -131,15 +127,11 @@ Figure scatter_picture(const StudyPicture& picture, const ResultFile& file) {
             if (v >= figure.panels.size())
                 figure.panels.push_back(panel_of(picture, run, x, ys[v], v));
             FigureSeries series{picture.runs.size() > 1 ? shown_name(picture, picture.runs[r]) : "",
-                                FigureSeries::Style::circles,
-                                r,
-                                {}};
+                                FigureSeries::Style::circles, r};
             const bool sampled = run.has_value(ys[v]) && !run.record.is_branch();
             const bool judged = seeks_attractors(run.record);
-            const MarkOfLabel mark = mark_of_label(name_of(Label::unsettled));
-            FigureSeries uncertain{
-                std::string(name_of(Label::unsettled)), FigureSeries::Style::symbols, mark.colour, {}};
-            uncertain.symbol = mark.symbol;
+            FigureSeries uncertain = series_of_label(name_of(Label::unsettled));
+            uncertain.title = name_of(Label::unsettled);
             auto rows = run.rows({.samples = sampled, .columns = {"label"}, .quantities = {x, ys[v]}});
             while (rows.next()) {
                 if (rows.is_null(1) || rows.is_null(2))
@@ -165,7 +157,7 @@ Figure scatter_picture(const StudyPicture& picture, const ResultFile& file) {
             if (points > most_circles && series.style == FigureSeries::Style::circles)
                 series.style = FigureSeries::Style::dots;
     }
-    return figure;
+    return {std::move(figure)};
 }
 
 } // namespace graze

@@ -5,7 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <set>
+#include <string_view>
 
 namespace graze {
 
@@ -13,22 +15,14 @@ StudyPicture default_picture(const RunRecord& run) {
     StudyPicture picture;
     picture.name = run.name;
     picture.runs = {run.name};
-    if (run.kind == "sweep")
-        picture.kind = "bifurcation";
-    else if (run.is_followed())
-        picture.kind = "branch";
-    else if (run.kind == "orbit")
-        picture.kind = "portrait";
-    else if (run.kind == "basin" && run.coordinates.size() > 1)
-        picture.kind = "basin";
-    else if (run.kind == "basin")
-        picture.kind = "scatter";
-    else if (run.kind == "record" && run.points > 1 && !run.coordinates.empty())
-        picture.kind = "bifurcation";
-    else if (run.kind == "identify")
-        picture.kind = "residuals";
-    else
-        picture.kind = "history";
+    const bool is_diagram = run.kind == "sweep" || (run.kind == "record" && run.points > 1 && !run.coordinates.empty());
+    picture.kind = is_diagram                   ? "bifurcation"
+                   : run.is_followed()          ? "branch"
+                   : run.kind == "orbit"        ? "portrait"
+                   : run.kind == "identify"     ? "residuals"
+                   : run.kind != "basin"        ? "history"
+                   : run.coordinates.size() > 1 ? "basin"
+                                                : "scatter";
     return picture;
 }
 
@@ -78,6 +72,20 @@ void remove_repeated(std::vector<std::string>& names) {
     std::erase_if(names, [&](const std::string& name) { return !known.insert(name).second; });
 }
 
+using Drawing = ResultPicture (*)(const StudyPicture&, const ResultFile&);
+
+/// What draws a kind of picture.
+constexpr std::array<std::pair<std::string_view, Drawing>, 10> drawings{{{"basin", basin_picture},
+                                                                         {"branch", branch_picture},
+                                                                         {"history", motion_picture},
+                                                                         {"map", basin_picture},
+                                                                         {"poincare", motion_picture},
+                                                                         {"portrait", motion_picture},
+                                                                         {"regression", regression_picture},
+                                                                         {"residuals", residual_picture},
+                                                                         {"scatter", scatter_picture},
+                                                                         {"spectrum", spectrum_picture}}};
+
 } // namespace
 
 ResultPicture make_picture(const StudyPicture& given, const ResultFile& file) {
@@ -87,32 +95,13 @@ ResultPicture make_picture(const StudyPicture& given, const ResultFile& file) {
             picture.kind = default_picture(*run).kind;
     remove_repeated(picture.runs);
     remove_repeated(picture.over);
-    ResultPicture result;
-    const bool branches = shows_branches(picture, file);
-    if (picture.kind == "branch")
-        result.figure = branch_picture(picture, file);
-    else if (branches && picture.kind != "scatter")
-        result.figure = orbit_picture(picture, file, picture.kind == "portrait");
-    else if (picture.kind == "basin")
-        result = basin_picture(picture, file, false);
-    else if (picture.kind == "map")
-        result = basin_picture(picture, file, true);
-    else if (picture.kind == "spectrum")
-        result = spectrum_picture(picture, file);
-    else if (picture.kind == "regression")
-        result = regression_picture(picture, file);
-    else if (picture.kind == "history")
-        result.figure = motion_picture(picture, file, MotionView::history);
-    else if (picture.kind == "portrait")
-        result.figure = motion_picture(picture, file, MotionView::portrait);
-    else if (picture.kind == "poincare")
-        result.figure = motion_picture(picture, file, MotionView::section);
-    else if (picture.kind == "residuals")
-        result.figure = residual_picture(picture, file);
-    else if (picture.kind == "scatter")
-        result.figure = scatter_picture(picture, file);
-    else
-        result.figure = bifurcation_picture(picture, file);
+    Drawing draw = bifurcation_picture;
+    for (const auto& [kind, drawing] : drawings)
+        if (picture.kind == kind)
+            draw = drawing;
+    if (shows_branches(picture, file) && draw == motion_picture)
+        draw = orbit_picture;
+    ResultPicture result = draw(picture, file);
     if (picture.y.empty() && picture.y_labels.empty() && picture.kind != "residuals")
         drop_constant_panels(result.figure);
     result.figure.title = picture.title;

@@ -11,6 +11,7 @@
 #include <map>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 namespace graze {
 
@@ -53,9 +54,20 @@ bool is_index(const TextRun& run) {
 
 /// Escapes a text for LaTeX. Of characters beyond ASCII only those that graze itself uses are replaced.
 std::string latex_letters(const std::string& text) {
-    static const std::map<std::string, std::string> known{{"→", "$\\rightarrow$"}, {"−", "$-$"},
-                                                          {"·", "$\\cdot$"},       {"°", "$^\\circ$"},
-                                                          {"…", "\\dots{}"},       {"×", "$\\times$"}};
+    static const std::map<std::string, std::string> known{{"→", "$\\rightarrow$"},
+                                                          {"−", "$-$"},
+                                                          {"·", "$\\cdot$"},
+                                                          {"°", "$^\\circ$"},
+                                                          {"…", "\\dots{}"},
+                                                          {"×", "$\\times$"},
+                                                          {"\\", "\\textbackslash{}"},
+                                                          {"~", "\\textasciitilde{}"},
+                                                          {"^", "\\textasciicircum{}"},
+                                                          {"`", "\\textasciigrave{}"},
+                                                          {"\"", "\\textquotedbl{}"},
+                                                          {"<", "\\textless{}"},
+                                                          {">", "\\textgreater{}"},
+                                                          {"|", "\\textbar{}"}};
     std::string result;
     for (std::size_t i = 0; i < text.size();) {
         const auto found = std::find_if(known.begin(), known.end(), [&](const auto& one) {
@@ -67,37 +79,30 @@ std::string latex_letters(const std::string& text) {
             continue;
         }
         const char c = text[i++];
-        switch (c) {
-        case '\\':
-            result += "\\textbackslash{}";
-            break;
-        case '~':
-            result += "\\textasciitilde{}";
-            break;
-        case '^':
-            result += "\\textasciicircum{}";
-            break;
-        case '`':
-            result += "\\textasciigrave{}";
-            break;
-        case '"':
-            result += "\\textquotedbl{}";
-            break;
-        case '<':
-            result += "\\textless{}";
-            break;
-        case '>':
-            result += "\\textgreater{}";
-            break;
-        case '|':
-            result += "\\textbar{}";
-            break;
-        default:
-            result +=
-                std::string_view("{}$&#_%").find(c) != std::string_view::npos ? std::string{'\\', c} : std::string{c};
-        }
+        result += std::string_view("{}$&#_%").find(c) != std::string_view::npos ? std::string{'\\', c} : std::string{c};
     }
     return result;
+}
+
+/// The end of an exponent such as ^-1 after a letter; `begin` if there is none.
+std::size_t power_at(const std::string& text, std::size_t begin) {
+    if (begin == 0 || begin >= text.size() || text[begin] != '^' ||
+        std::isalpha(static_cast<unsigned char>(text[begin - 1])) == 0)
+        return begin;
+    const std::size_t digits = begin + (text.compare(begin, 2, "^-") == 0 ? 2 : 1);
+    const std::size_t end = std::min(text.find_first_not_of("0123456789", digits), text.size());
+    return end > digits ? end : begin;
+}
+
+/// Markup of the four looks: what stands before the letters and after them.
+using LookMarkup = std::array<std::pair<const char*, const char*>, 4>;
+constexpr LookMarkup gnuplot_looks{{{"", ""}, {"{/:Italic ", "}"}, {"_{", "}"}, {"^{", "}"}}};
+constexpr LookMarkup latex_looks{
+    {{"", ""}, {"\\textit{", "}"}, {"\\textsubscript{", "}"}, {"\\textsuperscript{", "}"}}};
+
+std::string marked_up(const TextRun& run, const LookMarkup& looks, const std::string& letters) {
+    const auto& [before, after] = looks[static_cast<std::size_t>(run.look)];
+    return before + letters + after;
 }
 
 } // namespace
@@ -125,20 +130,6 @@ RichText rich_name(const std::string& name) {
         result.push_back({index, RunLook::lowered});
     return result;
 }
-
-namespace {
-
-/// The end of an exponent such as ^-1 after a letter; `begin` if there is none.
-std::size_t power_at(const std::string& text, std::size_t begin) {
-    if (begin == 0 || begin >= text.size() || text[begin] != '^' ||
-        std::isalpha(static_cast<unsigned char>(text[begin - 1])) == 0)
-        return begin;
-    const std::size_t digits = begin + (text.compare(begin, 2, "^-") == 0 ? 2 : 1);
-    const std::size_t end = std::min(text.find_first_not_of("0123456789", digits), text.size());
-    return end > digits ? end : begin;
-}
-
-} // namespace
 
 RichText rich_words(const std::string& text, const std::vector<std::string>& symbols) {
     const auto in_name = [&](std::size_t i) {
@@ -242,45 +233,16 @@ std::vector<std::string> wrapped_lines(const std::string& text, double width, st
 
 std::string gnuplot_markup(const RichText& text) {
     std::string result;
-    for (const TextRun& run : text) {
-        const std::string letters = plain(run.text);
-        switch (run.look) {
-        case RunLook::upright:
-            result += letters;
-            break;
-        case RunLook::italic:
-            result += fmt::format("{{/:Italic {}}}", letters);
-            break;
-        case RunLook::lowered:
-            result += fmt::format("_{{{}}}", letters);
-            break;
-        case RunLook::raised:
-            result += fmt::format("^{{{}}}", letters);
-            break;
-        }
-    }
+    for (const TextRun& run : text)
+        result += marked_up(run, gnuplot_looks, plain(run.text));
     return result;
 }
 
 std::string latex_markup(const RichText& text) {
     std::string result;
     for (const TextRun& run : text) {
-        plain(run.text); // refuses control characters
-        const std::string letters = latex_letters(printable_line(run.text));
-        switch (run.look) {
-        case RunLook::upright:
-            result += letters;
-            break;
-        case RunLook::italic:
-            result += "\\textit{" + letters + "}";
-            break;
-        case RunLook::lowered:
-            result += "\\textsubscript{" + letters + "}";
-            break;
-        case RunLook::raised:
-            result += "\\textsuperscript{" + letters + "}";
-            break;
-        }
+        require_quotable(run.text);
+        result += marked_up(run, latex_looks, latex_letters(printable_line(run.text)));
     }
     std::string quoted; // backslashes doubled, since gnuplot reads the double quotes before LaTeX does
     for (const char c : result)

@@ -76,16 +76,6 @@ std::string words_of_extremum(const StoredRun& run, const std::string& name) {
     return "";
 }
 
-/// Sets the label of an axis to the name that the study gives, or to the value's name and its description.
-void label(std::string& label, std::string& words, const StudyPicture& picture, const StoredRun& run,
-           const std::string& name) {
-    label = name;
-    if (const std::string* given = given_name(picture, name))
-        label = *given;
-    else
-        words = words_of(run, name);
-}
-
 } // namespace
 
 std::string first_words(const std::string& text) {
@@ -126,10 +116,11 @@ std::string words_of(const StoredRun& run, const std::string& name) {
 
 void label_axes(FigurePanel& panel, const StudyPicture& picture, const StoredRun& run, const std::string& x,
                 const std::string& y) {
-    label(panel.x_label, panel.x_words, picture, run, x);
-    label(panel.y_label, panel.y_words, picture, run, y);
-    panel.x_unit = x == "t" ? run.model.time_unit : run.unit(x);
-    panel.y_unit = y == "t" ? run.model.time_unit : run.unit(y);
+    const auto shown = [&](const std::string& name) {
+        return NamedValue{name, name == "t" ? run.model.time_unit : run.unit(name), words_of(run, name), {}};
+    };
+    label_axis(panel.x_label, panel.x_words, panel.x_unit, picture, shown(x));
+    label_axis(panel.y_label, panel.y_words, panel.y_unit, picture, shown(y));
 }
 
 void label_axis(std::string& label, std::string& words, std::string& unit, const StudyPicture& picture,

@@ -63,17 +63,15 @@ ResultPicture spectrum_picture(const StudyPicture& picture, const ResultFile& fi
                 throw InputError(picture.place,
                                  fmt::format("the mean of '{}' is zero, of which a spectrum shows shares", value),
                                  "choose a value that does not vanish, as its square");
-            FigureSeries series{
-                title, absolute ? FigureSeries::Style::line : FigureSeries::Style::impulses, panel.series.size(), {}};
+            FigureSeries series{title, absolute ? FigureSeries::Style::line : FigureSeries::Style::impulses,
+                                panel.series.size()};
             if (result.table.rows() == 0)
                 result.table =
                     Table({{"run", ""}, {"frequency", ""}, {absolute ? "amplitude" : "amplitude_percent", ""}});
             for (std::size_t k = 0; k < parts.frequencies.size(); ++k) {
                 const double height = absolute ? parts.amplitudes[k] : 100 * parts.amplitudes[k] / std::abs(parts.mean);
                 series.points.push_back({parts.frequencies[k], height});
-                result.table.add(title);
-                result.table.add(parts.frequencies[k]);
-                result.table.add(height);
+                result.table.add(title, parts.frequencies[k], height);
             }
             panel.series.push_back(std::move(series));
             const std::string words = words_of(run, value);

@@ -1,15 +1,14 @@
 #include "graze/picture/trajectory_figure.hpp"
 
 #include "base/special_numbers.hpp"
+#include "picture/box.hpp"
 #include "picture/curve.hpp"
-#include "picture/motion_curve.hpp"
 #include "picture/shown_names.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <utility>
 
@@ -21,17 +20,6 @@ constexpr double invisible_deviation = 2e-4; ///< greatest deviation of simplifi
 constexpr double last_moments = 0.005;       ///< final fraction of a motion to a singularity that the axes ignore
 constexpr std::size_t most_marked = 2000;    ///< number of contacts; more marks would hide the curve
 constexpr std::size_t section_colour = 1;
-
-struct ValueRange {
-    double least = std::numeric_limits<double>::infinity(), greatest = -std::numeric_limits<double>::infinity();
-    void add(double value) {
-        if (!std::isfinite(value))
-            return;
-        least = std::min(least, value);
-        greatest = std::max(greatest, value);
-    }
-    double span() const { return std::max(greatest - least, 0.0); }
-};
 
 class TrajectoryPanels {
 public:
@@ -77,7 +65,7 @@ private:
         const MotionPanelChoice& contents = recorder_->contents();
         std::vector<std::size_t> shown;
         for (const std::size_t column : contents.histories) {
-            const ValueRange& range = ranges_[1 + column];
+            const Extent& range = ranges_[1 + column];
             if (contents.chosen || range.span() > resolved * std::max(std::abs(range.least), std::abs(range.greatest)))
                 shown.push_back(column);
         }
@@ -87,21 +75,22 @@ private:
     double start() const { return motion().values[time].front(); }
     double end() const { return motion().values[time].back(); }
 
-    ValueRange range_of(std::size_t value) const {
-        ValueRange range;
+    Extent range_of(std::size_t value) const {
+        Extent range;
         const std::vector<double>&times = motion().values[time], &values = motion().values[value];
         if (times.empty())
             return range;
         const double last = recorder_->singularity() ? end() - last_moments * (end() - start()) : end();
         for (std::size_t i = 0; i < times.size() && times[i] <= last; ++i)
-            range.add(values[i]);
+            if (std::isfinite(values[i]))
+                range.add(values[i]);
         return range;
     }
 
     FigurePanel panel(std::size_t x, std::size_t y) const {
         FigurePanel panel;
-        describe(panel.x_label, panel.x_words, panel.x_unit, x);
-        describe(panel.y_label, panel.y_words, panel.y_unit, y);
+        label_axis(panel.x_label, panel.x_words, panel.x_unit, {}, shown(x));
+        label_axis(panel.y_label, panel.y_words, panel.y_unit, {}, shown(y));
         panel.roomy_y = true;
         panel.roomy_x = x != time;
         if (motion().values[time].empty())
@@ -112,23 +101,15 @@ private:
         return panel;
     }
 
-    void describe(std::string& label, std::string& words, std::string& unit, std::size_t shown) const {
-        if (shown == time) {
-            label = "t";
-            words = "time";
-            unit = recorder_->model().time_unit;
-            return;
-        }
-        const NamedValue& value = recorder_->contents().columns[shown - 1];
-        label = value.name;
-        words = first_words(value.text);
-        unit = value.unit;
+    NamedValue shown(std::size_t value) const {
+        return value == time ? NamedValue{"t", recorder_->model().time_unit, "time", {}}
+                             : recorder_->contents().columns[value - 1];
     }
 
     void limit(FigurePanel& panel, std::size_t x, std::size_t y) const {
         constexpr double margin = 0.08, after = 0.01;
         const auto roomy = [&](std::size_t value) {
-            const ValueRange& range = ranges_[value];
+            const Extent& range = ranges_[value];
             const double added = margin * (range.span() > 0 ? range.span() : std::max(std::abs(range.least), 1.0));
             return std::pair(range.least - added, range.greatest + added);
         };
@@ -167,9 +148,9 @@ private:
     }
 
     void add_marks(FigurePanel& panel, std::size_t x, std::size_t y) const {
-        FigureSeries jumps{"jump", FigureSeries::Style::dotted, FigureSeries::black, {}};
-        FigureSeries contacts{"contact", FigureSeries::Style::symbols, FigureSeries::black, {}};
-        FigureSeries passages{recorder_->section_names(), FigureSeries::Style::circles, section_colour, {}};
+        FigureSeries jumps{"jump", FigureSeries::Style::dotted, FigureSeries::black};
+        FigureSeries contacts{"contact", FigureSeries::Style::symbols, FigureSeries::black};
+        FigureSeries passages{recorder_->section_names(), FigureSeries::Style::circles, section_colour};
         const bool cyclic = motion().periods[x] > 0 || motion().periods[y] > 0;
         for (const MotionRecorder::Jump& jump : recorder_->jumps()) {
             const PlanePoint before{jump.before[x], jump.before[y]}, after{jump.after[x], jump.after[y]};
@@ -195,7 +176,7 @@ private:
     }
 
     const MotionRecorder* recorder_;
-    std::vector<ValueRange> ranges_; ///< range of each value
+    std::vector<Extent> ranges_; ///< range of each value
 };
 
 } // namespace

@@ -13,9 +13,8 @@ namespace graze {
 
 void add_trips(FigurePanel& panel, const std::vector<std::pair<double, TripTime>>& trips, const std::string& title,
                std::size_t colour, int symbol, bool at_fold) {
-    FigureSeries line{"", FigureSeries::Style::line, colour, {}};
-    FigureSeries marks{title, FigureSeries::Style::symbols, colour, {}};
-    marks.symbol = symbol;
+    FigureSeries line{"", FigureSeries::Style::line, colour};
+    FigureSeries marks{.title = title, .style = FigureSeries::Style::symbols, .colour = colour, .symbol = symbol};
     const TripTime* before = nullptr;
     for (const auto& [overshoot, trip] : trips) {
         if (!at_fold && before && before->contacts != trip.contacts)
@@ -32,15 +31,11 @@ void add_trips(FigurePanel& panel, const std::vector<std::pair<double, TripTime>
 
 namespace {
 
-FigureSeries series_of(const std::string& title, FigureSeries::Style style, std::size_t colour) {
-    return {title, style, colour, {}};
-}
-
 void add_touch(FigurePanel& panel, const OvershootTrips& trips, const std::string& which) {
     const std::string level = fmt::format("speed {:.4g}", level_until(trips.point, trips.end.end));
     const std::string& end = trips.end.words;
     std::vector<std::pair<double, TripTime>> map, continued;
-    FigureSeries simulated = series_of(which + "simulation alone, until " + end, FigureSeries::Style::circles, 2);
+    FigureSeries simulated{which + "simulation alone, until " + end, FigureSeries::Style::circles, 2};
     for (const OvershootTrip& row : trips.of_touch) {
         const double x = std::abs(row.overshoot);
         if (x == 0) // has no place on the axis
@@ -59,9 +54,9 @@ void add_touch(FigurePanel& panel, const OvershootTrips& trips, const std::strin
 }
 
 void add_fold(FigurePanel& panel, const OvershootTrips& trips, const std::string& which) {
-    FigureSeries form = series_of(which + "normal form, from far away", FigureSeries::Style::dashed, 3);
-    FigureSeries gated = series_of(which + "normal form, from gate to gate", FigureSeries::Style::line, 3);
-    FigureSeries simulated = series_of(which + "simulation, until " + trips.end.words, FigureSeries::Style::circles, 4);
+    FigureSeries form{which + "normal form, from far away", FigureSeries::Style::dashed, 3};
+    FigureSeries gated{which + "normal form, from gate to gate", FigureSeries::Style::line, 3};
+    FigureSeries simulated{which + "simulation, until " + trips.end.words, FigureSeries::Style::circles, 4};
     for (const TripSummary& summary : trips.summaries()) {
         form.points.push_back({std::abs(summary.overshoot), summary.time});
         if (std::isfinite(summary.end_time))
@@ -77,15 +72,14 @@ void add_fold(FigurePanel& panel, const OvershootTrips& trips, const std::string
 Figure trip_figure(const std::vector<OvershootTrips>& all) {
     require_index(0, all.size(), "point with trips");
     const LossPoint& point = all.front().point;
-    FigurePanel panel;
-    panel.x_label = point.name + (point.side > 0 ? " beyond its " : " short of its ") + point.kind();
-    if (all.size() > 1)
-        panel.x_label = "distance of " + point.name;
-    panel.x_unit = point.unit;
-    panel.y_label = "time";
-    panel.y_unit = point.model().time_unit;
-    panel.logarithmic_x = true;
-    panel.roomy_x = panel.roomy_y = true;
+    const std::string beyond = point.name + (point.side > 0 ? " beyond its " : " short of its ") + point.kind();
+    FigurePanel panel{.x_label = all.size() > 1 ? "distance of " + point.name : beyond,
+                      .y_label = "time",
+                      .x_unit = point.unit,
+                      .y_unit = point.model().time_unit,
+                      .logarithmic_x = true,
+                      .roomy_y = true,
+                      .roomy_x = true};
     for (const OvershootTrips& trips : all) {
         const std::string which = all.size() > 1 ? std::string(trips.point.kind()) + ": " : "";
         panel.logarithmic_y = panel.logarithmic_y || trips.point.fold;
@@ -94,9 +88,7 @@ Figure trip_figure(const std::vector<OvershootTrips>& all) {
         else
             add_touch(panel, trips, which);
     }
-    Figure figure;
-    figure.panels.push_back(std::move(panel));
-    return figure;
+    return {.panels = {std::move(panel)}};
 }
 
 } // namespace graze

@@ -26,11 +26,16 @@ public:
     }
 
     std::string text(const std::string& ending, const std::string& output) {
-        std::string text = head(ending, output);
-        text += outlines();
-        text += devices(); // before plot(), which depends on the kinds of devices found
-        text += plot();
-        return text;
+        add_devices();
+        std::string blocks, plots = "plot $outlines with lines lc rgb '#666666'";
+        const auto add = [&](const char* name, const std::string& data, const char* style) {
+            blocks += fmt::format("${} << EOD\n{}EOD\n", name, data);
+            plots += data.empty() ? "" : fmt::format(", ${} {}", name, style);
+        };
+        add("found", found_, "using 1:2:3 with points pt 7 ps 2 lc palette");
+        add("rings", rings_, "with points pt 6 ps 2.6 lw 1.5 lc rgb '#000000'");
+        add("crosses", crosses_, "with points pt 2 ps 1.5 lw 2 lc rgb '#000000'");
+        return head(ending, output) + outlines() + blocks + labels_of_devices_ + plots + "\nset output\n";
     }
 
 private:
@@ -43,15 +48,8 @@ private:
     std::string head(const std::string& ending, const std::string& output) const {
         const double width = wafer_size * static_cast<double>(columns_) + 160,
                      height = wafer_size * static_cast<double>(rows_) + 60;
-        std::string terminal;
-        if (ending == "png")
-            terminal = fmt::format("pngcairo noenhanced size {:.0f},{:.0f} font 'sans,11'", width, height);
-        else if (ending == "pdf")
-            terminal =
-                fmt::format("pdfcairo noenhanced size {:.3f}in,{:.3f}in font 'sans,11'", width / 96, height / 96);
-        else
-            terminal =
-                fmt::format("svg noenhanced size {:.0f},{:.0f} background rgb 'white' font 'sans,13'", width, height);
+        const char* font = ending == "png" || ending == "pdf" ? " font 'sans,11'" : " font 'sans,13'";
+        const std::string terminal = drawing_terminal(ending, width, height) + font;
         const double right = pitch * static_cast<double>(columns_ - 1) + 1.12,
                      low = -pitch * static_cast<double>(rows_ - 1) - 1.12;
         return fmt::format(
@@ -95,8 +93,7 @@ private:
         return greatest > 0 ? std::clamp(3 - static_cast<int>(std::floor(std::log10(greatest))), 0, 9) : 0;
     }
 
-    std::string devices() {
-        std::string found = "$found << EOD\n", rings = "$rings << EOD\n", crosses = "$crosses << EOD\n", labels;
+    void add_devices() {
         for (const WaferDevice& device : yield_->devices) {
             if (device.wafer > wafers_)
                 continue;
@@ -104,47 +101,31 @@ private:
             const double dx = 2 * device.place.x / plan_->diameter, dy = 2 * device.place.y / plan_->diameter;
             const std::string at = fmt::format("{:.6g} {:.6g}", x + dx, y + dy);
             if (device.outcome != DeviceOutcome::found) {
-                crosses += at + "\n";
-                has_crosses_ = true;
+                crosses_ += at + "\n";
                 continue;
             }
-            found += fmt::format("{} {:.17g}\n", at, device.value);
-            has_found_ = true;
-            if (is_within(device.value)) {
-                rings += at + "\n";
-                has_rings_ = true;
-            }
+            found_ += fmt::format("{} {:.17g}\n", at, device.value);
+            if (is_within(device.value))
+                rings_ += at + "\n";
             // The value is written towards the centre for devices at the sides, and beyond devices above and below:
             // eight devices fit so.
             constexpr std::size_t few = 12; // greatest number of devices on a wafer with labels
             const bool aside = std::abs(dx) > std::abs(dy);
             const double farther = aside ? 1 : 1.36, beside = aside ? std::copysign(0.09, -dx) : 0;
             if (plan_->devices <= few)
-                labels += fmt::format("set label \"{:.{}f}\" at {:.6g},{:.6g} {} front font ',9'\n", device.value,
-                                      decimals(), x + farther * dx + beside, y + farther * dy,
-                                      !aside   ? "center"
-                                      : dx < 0 ? "left"
-                                               : "right");
+                labels_of_devices_ += fmt::format("set label \"{:.{}f}\" at {:.6g},{:.6g} {} front font ',9'\n",
+                                                  device.value, decimals(), x + farther * dx + beside, y + farther * dy,
+                                                  !aside   ? "center"
+                                                  : dx < 0 ? "left"
+                                                           : "right");
         }
-        return found + "EOD\n" + rings + "EOD\n" + crosses + "EOD\n" + labels;
-    }
-
-    std::string plot() const {
-        std::string plots = "$outlines with lines lc rgb '#666666'";
-        if (has_found_)
-            plots += ", $found using 1:2:3 with points pt 7 ps 2 lc palette";
-        if (has_rings_)
-            plots += ", $rings with points pt 6 ps 2.6 lw 1.5 lc rgb '#000000'";
-        if (has_crosses_)
-            plots += ", $crosses with points pt 2 ps 1.5 lw 2 lc rgb '#000000'";
-        return "plot " + plots + "\nset output\n";
     }
 
     const WaferYield* yield_;
     const WaferPlan* plan_;
     const WaferMapLabels* labels_;
     std::size_t wafers_ = 1, columns_ = 1, rows_ = 1;
-    bool has_found_ = false, has_rings_ = false, has_crosses_ = false;
+    std::string found_, rings_, crosses_, labels_of_devices_; ///< lines for gnuplot
 };
 
 } // namespace

@@ -37,25 +37,17 @@ Figure yield_picture(const Yield& yield, const std::string& parameter, const std
     std::vector<double> counts(bars, 0.0);
     for (const double value : values)
         counts[std::min(bars - 1, static_cast<std::size_t>((value - low) / width))] += 1;
-    FigurePanel panel;
-    panel.x_label = parameter;
-    panel.x_unit = unit;
-    panel.y_label = "devices";
-    panel.roomy_y = true;
-    FigureSeries& found = panel.series.emplace_back();
-    found.title = "devices";
-    found.style = FigureSeries::Style::cells;
+    FigurePanel panel{.x_label = parameter, .y_label = "devices", .x_unit = unit, .roomy_y = true};
+    FigureSeries found{"devices", FigureSeries::Style::cells};
     double highest = 0;
     for (std::size_t i = 0; i < bars; ++i) {
         const double left = low + static_cast<double>(i) * width;
         found.cells.push_back({left, left + width, 0, counts[i]});
         highest = std::max(highest, counts[i]);
     }
+    panel.series.push_back(std::move(found));
     if (const double deviation = yield.linear_deviation; deviation > 0) {
-        FigureSeries& linear = panel.series.emplace_back();
-        linear.title = "by the derivatives alone";
-        linear.style = FigureSeries::Style::line;
-        linear.colour = FigureSeries::black;
+        FigureSeries linear{"by the derivatives alone", FigureSeries::Style::line, FigureSeries::black};
         constexpr int points = 200;
         const double peak = static_cast<double>(values.size()) * width / (deviation * std::sqrt(2 * std::numbers::pi));
         for (int i = 0; i <= points; ++i) {
@@ -63,15 +55,13 @@ Figure yield_picture(const Yield& yield, const std::string& parameter, const std
             linear.points.push_back({yield.nominal + z * deviation, peak * std::exp(-0.5 * z * z)});
         }
         highest = std::max(highest, peak);
+        panel.series.push_back(std::move(linear));
     }
     panel.y_range = {0, 1.08 * highest};
     for (const std::optional<double>& limit : {least, greatest})
         if (limit)
             panel.marks.push_back(*limit);
-    Figure figure;
-    figure.panels.push_back(std::move(panel));
-    figure.symbols = {parameter};
-    return figure;
+    return {.panels = {std::move(panel)}, .symbols = {parameter}};
 }
 
 } // namespace graze

@@ -1,6 +1,7 @@
 #include "graze/layout/device_drawing.hpp"
 
 #include "graze/layout/device_measures.hpp"
+#include "message_of.hpp"
 
 #include <gmock/gmock.h>
 
@@ -21,12 +22,7 @@ DeviceFile file_of(const DeviceDimensions& dimensions) {
 }
 
 std::string message(const DeviceDimensions& dimensions) {
-    try {
-        draw_device(file_of(dimensions));
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return message_of([&] { draw_device(file_of(dimensions)); });
 }
 
 double box_area(const std::vector<GridBox>& boxes) {

@@ -2,6 +2,7 @@
 
 #include "graze/base/input_errors.hpp"
 #include "graze/design/design.hpp"
+#include "message_of.hpp"
 
 #include <gmock/gmock.h>
 
@@ -13,12 +14,7 @@ namespace {
 using ::testing::HasSubstr;
 
 std::string message(const std::string& device, const GivenLengths& given = {}) {
-    try {
-        parse_device_file("name = \"one\"\n[device]\n" + device, "one.toml", given);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return message_of([&] { parse_device_file("name = \"one\"\n[device]\n" + device, "one.toml", given); });
 }
 
 TEST(DeviceFile, ReadsLengthsInAnyUnitOnTheGrid) {
@@ -109,13 +105,8 @@ TEST(DeviceFile, ReadsDimensionsOfTheCommandLineWithUnits) {
     EXPECT_DOUBLE_EQ(value("modulus", "169e9 Pa"), 169);
     EXPECT_DOUBLE_EQ(value("pressure", "100 kPa"), 1e5);
     EXPECT_EQ(value("folds", "3"), 3);
-    const auto said = [&](const std::string& name, const std::string& text) -> std::string {
-        try {
-            value(name, text);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
+    const auto said = [&](const std::string& name, const std::string& text) {
+        return message_of([&] { value(name, text); });
     };
     EXPECT_EQ(said("gap", "15 V"), "--set:1:1: gap is not measured in V; give it in nm, um, mm, cm or m");
     EXPECT_EQ(said("modulus", "3 um"), "--set:1:1: modulus is not measured in um; give it in GPa");

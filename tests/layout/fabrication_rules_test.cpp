@@ -1,6 +1,7 @@
 #include "graze/layout/fabrication_rules.hpp"
 
 #include "graze/base/input_errors.hpp"
+#include "message_of.hpp"
 
 #include <gmock/gmock.h>
 
@@ -27,12 +28,7 @@ const RuleFinding& of(const std::vector<RuleFinding>& findings, const std::strin
 
 /// The message about broken rules; empty if all hold.
 std::string message(const DeviceFile& file) {
-    try {
-        require_rules(file, found(file));
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return testing::message_of([&] { require_rules(file, found(file)); });
 }
 
 TEST(FabricationRules, MeasureTheShippedDevice) {

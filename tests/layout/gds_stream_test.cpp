@@ -54,18 +54,10 @@ std::vector<Record> records(const std::string& bytes) {
 }
 
 LayoutLibrary small_library() {
-    LayoutLibrary library;
-    library.name = "odd";
-    LayoutCell square;
-    square.name = "SQUARE";
+    LayoutCell square{.name = "SQUARE", .texts = {{{8, 1}, {5, -6}, "word", 2}}};
     square.add({7, 3}, GridBox{-1, -2, 300, 70'000});
-    square.texts.push_back({{8, 1}, {5, -6}, "word", 2});
-    LayoutCell top;
-    top.name = "TOP";
-    top.references.push_back({"SQUARE", {1000, -1000}, true, 90});
-    top.references.push_back({"SQUARE", {}, false, 0});
-    library.cells = {square, top};
-    return library;
+    const LayoutCell top{.name = "TOP", .references = {{"SQUARE", {1000, -1000}, true, 90}, {"SQUARE", {}, false, 0}}};
+    return {"odd", {square, top}};
 }
 
 TEST(GdsStream, IsTheSequenceOfRecordsOfTheFormat) {
@@ -104,14 +96,8 @@ TEST(GdsStream, RefusesValuesBeyondTheFormat) {
 /// Sizes beyond GDSII's limits, and cells that contain themselves.
 TEST(GdsStream, WrongUsesAreRefused) {
     const GridPolygon square{{0, 0}, {1, 0}, {1, 1}};
-    const auto library = [](const LayoutCell& cell) {
-        LayoutLibrary result;
-        result.name = "l";
-        result.cells = {cell};
-        return result;
-    };
-    LayoutCell cell;
-    cell.name = "a";
+    const auto library = [](const LayoutCell& cell) { return LayoutLibrary{"l", {cell}}; };
+    LayoutCell cell{.name = "a"};
     cell.add(mask_layers::front, square);
     EXPECT_NO_THROW(gds_stream(library(cell)));
     for (const MaskLayer layer : {MaskLayer{70'000, 0}, MaskLayer{1, 70'000}, MaskLayer{-1, 0}}) {

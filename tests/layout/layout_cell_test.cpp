@@ -9,20 +9,12 @@
 namespace graze::testing {
 namespace {
 
-LayoutCell cell_of(const std::string& name, std::vector<CellReference> references) {
-    LayoutCell cell;
-    cell.name = name;
-    cell.references = std::move(references);
-    return cell;
-}
-
 TEST(LayoutCell, IsMirroredThenRotatedThenMoved) {
-    LayoutLibrary library;
-    LayoutCell arrow;
-    arrow.name = "ARROW";
+    LayoutCell arrow{.name = "ARROW"};
     arrow.add({1, 0}, GridPolygon{{0, 0}, {4, 0}, {4, 1}});
-    library.cells = {arrow, cell_of("ONE", {{"ARROW", {100, 10}, true, 90}}),
-                     cell_of("TWO", {{"ONE", {1000, 0}, true, 180}})};
+    const LayoutLibrary library{.cells = {arrow,
+                                          {.name = "ONE", .references = {{"ARROW", {100, 10}, true, 90}}},
+                                          {.name = "TWO", .references = {{"ONE", {1000, 0}, true, 180}}}}};
     const std::vector<PlacedShape> one = flattened(library, "ONE");
     ASSERT_EQ(one.size(), 1U);
     // (x, y) -> (x, -y) -> (y, x) -> moved
@@ -33,11 +25,9 @@ TEST(LayoutCell, IsMirroredThenRotatedThenMoved) {
 }
 
 TEST(LayoutCell, RotatedByAnyAngleIsRoundedToTheGrid) {
-    LayoutLibrary library;
-    LayoutCell square;
-    square.name = "SQUARE";
+    LayoutCell square{.name = "SQUARE"};
     square.add({1, 0}, GridBox{0, 0, 1000, 1000});
-    library.cells = {square, cell_of("TOP", {{"SQUARE", {}, false, 30}})};
+    const LayoutLibrary library{.cells = {square, {.name = "TOP", .references = {{"SQUARE", {}, false, 30}}}}};
     EXPECT_EQ(flattened(library, "TOP")[0].polygon, (GridPolygon{{0, 0}, {866, 500}, {366, 1366}, {-500, 866}}));
     EXPECT_EQ(areas_of(library, "TOP").at({1, 0}), 1) << "of what is drawn, not of what is rounded";
 }

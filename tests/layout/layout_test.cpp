@@ -1,6 +1,7 @@
 #include "graze/layout/layout.hpp"
 
 #include "graze/layout/gds_stream.hpp"
+#include "message_of.hpp"
 
 #include <gmock/gmock.h>
 
@@ -19,12 +20,7 @@ DeviceFile file_of(const std::string& sections) {
 }
 
 std::string message(const std::string& sections) {
-    try {
-        draw_wafer_layout(file_of(sections));
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return message_of([&] { draw_wafer_layout(file_of(sections)); });
 }
 
 /// Areas of the flattened polygons by layer, in square micrometres.

@@ -2,13 +2,13 @@
 
 #include "graze/base/input_error.hpp"
 
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 namespace graze {
@@ -34,60 +34,34 @@ void add_block(std::vector<Strip>& strips, double left, double right, double hei
     }
 }
 
-std::vector<double> solved(std::vector<std::vector<double>> matrix, std::vector<double> right) {
-    const std::size_t n = right.size();
-    for (std::size_t i = 0; i < n; ++i) {
-        std::size_t pivot = i;
-        for (std::size_t k = i; k < n; ++k)
-            pivot = std::abs(matrix[k][i]) > std::abs(matrix[pivot][i]) ? k : pivot;
-        std::swap(matrix[i], matrix[pivot]);
-        std::swap(right[i], right[pivot]);
-        for (std::size_t k = i + 1; k < n; ++k) {
-            const double factor = matrix[k][i] / matrix[i][i];
-            for (std::size_t j = i; j < n; ++j)
-                matrix[k][j] -= factor * matrix[i][j];
-            right[k] -= factor * right[i];
-        }
-    }
-    for (std::size_t i = n; i-- > 0;) {
-        for (std::size_t j = i + 1; j < n; ++j)
-            right[i] -= matrix[i][j] * right[j];
-        right[i] /= matrix[i][i];
-    }
-    return right;
-}
-
 /// Capacitance per length over epsilon of two blocks in free space by boundary elements (constant charge, exact
 /// potentials, collocation at the middle of each strip).
 double capacitance_by_charges(double height, double gap, double backing, int n) {
     std::vector<Strip> strips;
     add_block(strips, -0.5 * gap - backing, -0.5 * gap, height, n);
     add_block(strips, 0.5 * gap, 0.5 * gap + backing, height, n);
-    const std::size_t size = strips.size();
-    std::vector<std::vector<double>> matrix(size + 1, std::vector<double>(size + 1));
-    std::vector<double> right(size + 1);
-    for (std::size_t i = 0; i < size; ++i) {
-        const Strip& at = strips[i];
+    const auto size = static_cast<Eigen::Index>(strips.size());
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size + 1, size + 1);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(size + 1), lengths(size);
+    for (Eigen::Index i = 0; i < size; ++i) {
+        const Strip& at = strips[static_cast<std::size_t>(i)];
         const double mx = at.x + 0.5 * at.length * at.tx, my = at.y + 0.5 * at.length * at.ty;
-        for (std::size_t j = 0; j < size; ++j) {
-            const Strip& from = strips[j];
+        for (Eigen::Index j = 0; j < size; ++j) {
+            const Strip& from = strips[static_cast<std::size_t>(j)];
             const double dx = mx - from.x, dy = my - from.y, along = dx * from.tx + dy * from.ty,
                          beside = std::abs(dy * from.tx - dx * from.ty);
             const auto integral = [beside](double u) {
                 const double square = u * u + beside * beside;
                 return 0.5 * u * std::log(square) - u + (beside > 0 ? beside * std::atan(u / beside) : 0);
             };
-            matrix[i][j] = -(integral(from.length - along) - integral(-along)) / (2 * std::numbers::pi);
+            matrix(i, j) = -(integral(from.length - along) - integral(-along)) / (2 * std::numbers::pi);
         }
-        matrix[i][size] = 1; // the potential is known up to a constant, and the total charge is zero
-        matrix[size][i] = strips[i].length;
+        matrix(i, size) = 1; // the potential is known up to a constant, and the total charge is zero
+        matrix(size, i) = lengths[i] = at.length;
         right[i] = i < size / 2 ? 0.5 : -0.5;
     }
-    const std::vector<double> charge = solved(std::move(matrix), std::move(right));
-    double sum = 0;
-    for (std::size_t i = 0; i < size / 2; ++i)
-        sum += charge[i] * strips[i].length;
-    return sum;
+    const Eigen::VectorXd charge = matrix.partialPivLu().solve(right);
+    return charge.head(size / 2).dot(lengths.head(size / 2));
 }
 
 TEST(PlateAttraction, HasTheFringeOfBoundaryElements) {

@@ -83,6 +83,12 @@ private:
         at_ += there ? 1 : 0;
         return there;
     }
+    double in_parentheses() {
+        expect_words({"("});
+        const double inner = value();
+        expect_words({")"});
+        return inner;
+    }
     void expect_words(const std::vector<std::string>& words) {
         for (const std::string& word : words)
             if (next() != word)
@@ -102,9 +108,7 @@ private:
 
     void statement(bool done) {
         if (take("if")) {
-            expect_words({"("});
-            const bool holds = value() != 0;
-            expect_words({")"});
+            const bool holds = in_parentheses() != 0;
             statement(done && holds);
             if (take("else"))
                 statement(done && !holds);
@@ -112,9 +116,7 @@ private:
         }
         const std::string word = next();
         if (word == "$bound_step") {
-            expect_words({"("});
-            value();
-            expect_words({")"});
+            in_parentheses();
         } else if (word == "I") {
             expect_words({"("});
             std::string node = next();
@@ -169,11 +171,8 @@ private:
     double factor() {
         if (take("-"))
             return -factor();
-        if (take("(")) {
-            const double inner = value();
-            expect_words({")"});
-            return inner;
-        }
+        if (peek() == "(")
+            return in_parentheses();
         const std::string word = next();
         if (std::isdigit(static_cast<unsigned char>(word[0])))
             return std::stod(word);

@@ -3,11 +3,9 @@
 #include "graze/picture/result_picture.hpp"
 #include "graze/study/runner.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <unistd.h>
+#include "../base/temporary_folder.hpp"
 
-#include <filesystem>
+#include <gmock/gmock.h>
 
 namespace graze {
 namespace {
@@ -63,23 +61,15 @@ std::vector<std::pair<std::string, FigureSeries::Style>> meanings(const ResultFi
 }
 
 TEST(CurvePicture, LegendExplainsStylesUnlessEachBelongsToOneRun) {
-    const std::string path =
-        (std::filesystem::temp_directory_path() / ("graze-curves-" + std::to_string(getpid()) + ".sqlite")).string();
-    std::filesystem::remove(path);
-    {
-        ResultFile file(path, ResultFile::Access::write);
-        for (const RunReport& report : run_study(parse_study(text, "s.toml"), file, {}))
-            EXPECT_TRUE(report.complete()) << report.name << ": " << report.problem;
-    }
-    {
-        const ResultFile file(path, ResultFile::Access::read);
-        using Style = FigureSeries::Style;
-        EXPECT_THAT(meanings(file, {"up", "down", "folds"}),
-                    ElementsAre(std::pair("grazing", Style::line), std::pair("fold", Style::dashed)));
-        EXPECT_THAT(meanings(file, {"up", "folds"}), IsEmpty());
-        EXPECT_THAT(meanings(file, {"up", "down"}), IsEmpty());
-    }
-    std::filesystem::remove(path);
+    const testing::TemporaryFolder folder;
+    ResultFile file(folder / "results.sqlite", ResultFile::Access::write);
+    for (const RunReport& report : run_study(parse_study(text, "s.toml"), file, {}))
+        EXPECT_TRUE(report.complete()) << report.name << ": " << report.problem;
+    using Style = FigureSeries::Style;
+    EXPECT_THAT(meanings(file, {"up", "down", "folds"}),
+                ElementsAre(std::pair("grazing", Style::line), std::pair("fold", Style::dashed)));
+    EXPECT_THAT(meanings(file, {"up", "folds"}), IsEmpty());
+    EXPECT_THAT(meanings(file, {"up", "down"}), IsEmpty());
 }
 
 } // namespace

@@ -26,16 +26,16 @@ namespace {
 const std::vector<FigureStyle> styles{{85, 0, 0, ""}, {170, 0, 0, ""}, {254, 143, 0, ""}, {85, 60, 7, ""}};
 
 FigurePanel panel_with(std::size_t points) {
-    FigurePanel panel;
-    panel.title = "(a) a title that is rather long for a narrow column of text, and needs more than a line there";
-    panel.x_label = "V0";
-    panel.x_words = "amplitude of the voltage of the source";
-    panel.x_unit = "V";
-    panel.y_label = "q";
-    panel.y_words = "displacement of the mass towards magnet and stop from its place of equilibrium";
-    panel.y_unit = "m/s^2";
-    panel.roomy_y = true;
-    FigureSeries line{"free", FigureSeries::Style::line, 0, {}}, symbols{"", FigureSeries::Style::symbols, 0, {}};
+    FigurePanel panel{
+        .title = "(a) a title that is rather long for a narrow column of text, and needs more than a line there",
+        .x_label = "V0",
+        .y_label = "q",
+        .x_unit = "V",
+        .y_unit = "m/s^2",
+        .x_words = "amplitude of the voltage of the source",
+        .y_words = "displacement of the mass towards magnet and stop from its place of equilibrium",
+        .roomy_y = true};
+    FigureSeries line{"free", FigureSeries::Style::line}, symbols{"", FigureSeries::Style::symbols};
     for (std::size_t i = 0; i < points; ++i) {
         const double x = static_cast<double>(i) / static_cast<double>(points);
         line.points.push_back({x, 1e-5 * (x - x * x)});
@@ -44,6 +44,21 @@ FigurePanel panel_with(std::size_t points) {
     }
     panel.series = {line, symbols};
     return panel;
+}
+
+/// All texts of a page: titles, those at axes, and of legends.
+std::vector<RichText> texts_of(const FigureLayout& page) {
+    std::vector<RichText> all;
+    const auto add = [&](const std::vector<PlacedText>& texts, const std::vector<LegendEntry>& legend) {
+        for (const PlacedText& text : texts)
+            all.push_back(text.text);
+        for (const LegendEntry& entry : legend)
+            all.push_back(entry.text);
+    };
+    add(page.title, page.legend);
+    for (const PanelLayout& panel : page.panels)
+        add(panel.texts, panel.legend);
+    return all;
 }
 
 /// A shipped study with few points in each sweep, which is computed in seconds.
@@ -67,16 +82,58 @@ Study quick(const std::string& name) {
     return study;
 }
 
+/// Names with digits or underscores of parameters, states, modes and runs that a picture shows as they are in files.
+std::vector<std::string> raw_names(const FigureLayout& page, const Study& study, const StudyPicture& picture) {
+    std::set<std::string> names;
+    const auto add = [&](const std::string& name) {
+        if (name.find_first_of("_0123456789") != std::string::npos)
+            names.insert(name);
+    };
+    const auto add_all = [&](const auto& list) {
+        for (const auto& one : list)
+            add(one.name);
+    };
+    for (const std::string& run : picture.runs) {
+        add(run);
+        const Model& model = study.find_run(run)->model;
+        add_all(model.parameters);
+        add_all(model.states);
+        add_all(model.modes);
+        add_all(model.events);
+        add_all(model.sections);
+        for (const Transition& transition : model.transitions)
+            add(transition.label);
+    }
+    std::vector<std::string> found;
+    const auto search = [&](const RichText& text) {
+        for (const TextRun& run : text) {
+            if (run.look != TextRun::Look::upright)
+                continue;
+            std::string words = run.text;
+            std::replace_if(
+                words.begin(), words.end(), [](unsigned char c) { return std::isalnum(c) == 0 && c != '_'; }, ' ');
+            std::istringstream stream(words);
+            for (std::string word; stream >> word;)
+                if (names.contains(word) || word.find('_') != std::string::npos)
+                    found.push_back(word + " in " + letters_of(text));
+        }
+    };
+    for (const RichText& text : texts_of(page))
+        search(text);
+    for (const PanelLayout& panel : page.panels)
+        for (const PlacedLabel& label : panel.labels.labels)
+            search(rich(label.text));
+    return found;
+}
+
 } // namespace
 
 TEST(FigureLayout, NothingOverlaps) {
     for (const FigureStyle& style : styles)
         for (const std::size_t points : {std::size_t{2}, std::size_t{12}, std::size_t{200}})
             for (const std::size_t panels : {std::size_t{1}, std::size_t{2}, std::size_t{5}}) {
-                Figure figure{
-                    "Orbits of an oscillator with a stop, which meets it once or twice in each period", 2, {}};
-                figure.panels.assign(panels, panel_with(points));
-                figure.style = style;
+                const Figure figure{"Orbits of an oscillator with a stop, which meets it once or twice in each period",
+                                    2, std::vector(panels, panel_with(points)), style};
                 if (style.height == 0 || panels < 3) {
                     EXPECT_THAT(overlaps_of(layout_of(figure)), ElementsAre())
                         << style.width << ' ' << points << ' ' << panels;
@@ -86,8 +143,7 @@ TEST(FigureLayout, NothingOverlaps) {
 
 // gnuplot would draw lines also outside a panel, into the next one.
 TEST(FigureLayout, VerticalLinesStayWithinTheirPanel) {
-    Figure figure;
-    figure.panels.push_back(panel_with(50));
+    Figure figure{.panels = {panel_with(50)}};
     figure.panels[0].x_range = std::pair(0.2, 0.6);
     figure.panels[0].marks = {0.1, 0.2, 0.4125, 0.7125};
     const std::string script = figure_script(figure, "svg", "picture.svg");
@@ -126,10 +182,9 @@ TEST(FigureLayout, PanelsWithEqualSeriesShareALegend) {
 }
 
 TEST(FigureLayout, LabelsOfAxesHaveUnitsAndPowersOfTen) {
-    const FigureLayout page = layout_of({"", 1, {panel_with(3)}});
     std::string texts;
-    for (const PlacedText& text : page.panels[0].texts)
-        texts += letters_of(text.text) + '\n';
+    for (const RichText& text : texts_of(layout_of({"", 1, {panel_with(3)}})))
+        texts += letters_of(text) + '\n';
     EXPECT_THAT(texts, HasSubstr("amplitude of the voltage of the source V0 (V)"));
     EXPECT_THAT(texts, HasSubstr("(10−6 m/s2)")); // as 10^-6, and a raised 2
 }
@@ -140,9 +195,8 @@ TEST(FigureLayout, UnitsOnTheirOwnLineHaveParentheses) {
     figure.panels[0].y_words = "";
     for (const double width : {60.0, 85.0, 120.0, 170.0}) {
         figure.style.width = width;
-        const FigureLayout page = layout_of(figure);
-        for (const PlacedText& text : page.panels[0].texts) {
-            const std::string letters = letters_of(text.text);
+        for (const RichText& text : texts_of(layout_of(figure))) {
+            const std::string letters = letters_of(text);
             EXPECT_EQ(std::count(letters.begin(), letters.end(), '('), std::count(letters.begin(), letters.end(), ')'))
                 << letters << " at " << width;
         }
@@ -156,76 +210,14 @@ TEST(FigureLayout, NamesAreSymbolsInTitlesLegendsAndLabels) {
     figure.panels[0].series[0].title = "V0 = 3 V";
     figure.panels[0].y_label = "mean of V0";
     figure.panels[0].y_words = "";
-    const FigureLayout page = layout_of(figure);
     std::string all;
-    const auto add = [&](const RichText& text) { all += gnuplot_markup(text) + '\n'; };
-    for (const PlacedText& text : page.title)
-        add(text.text);
-    for (const PlacedText& text : page.panels[0].texts)
-        add(text.text);
-    for (const LegendEntry& entry : page.panels[0].legend)
-        add(entry.text);
+    for (const RichText& text : texts_of(layout_of(figure)))
+        all += gnuplot_markup(text) + '\n';
     EXPECT_THAT(all, HasSubstr("Orbits at {/:Italic V}_{0} = 3 V"));
     EXPECT_THAT(all, HasSubstr("\n{/:Italic V}_{0} up"));
     EXPECT_THAT(all, HasSubstr("\n{/:Italic V}_{0} = 3 V"));
     EXPECT_THAT(all, HasSubstr("mean of {/:Italic V}_{0}"));
 }
-
-namespace {
-
-/// Names with digits or underscores of parameters, states, modes and runs that a picture shows as they are in files.
-std::vector<std::string> raw_names(const FigureLayout& page, const Study& study, const StudyPicture& picture) {
-    std::set<std::string> names;
-    const auto add = [&](const std::string& name) {
-        if (name.find_first_of("_0123456789") != std::string::npos)
-            names.insert(name);
-    };
-    for (const std::string& run : picture.runs) {
-        add(run);
-        const Model& model = study.find_run(run)->model;
-        for (const Parameter& parameter : model.parameters)
-            add(parameter.name);
-        for (const State& state : model.states)
-            add(state.name);
-        for (const Mode& mode : model.modes)
-            add(mode.name);
-        for (const Event& event : model.events)
-            add(event.name);
-        for (const Section& section : model.sections)
-            add(section.name);
-        for (const Transition& transition : model.transitions)
-            add(transition.label);
-    }
-    std::vector<std::string> found;
-    const auto search = [&](const RichText& text) {
-        for (const TextRun& run : text) {
-            if (run.look != TextRun::Look::upright)
-                continue;
-            std::string words = run.text;
-            std::replace_if(
-                words.begin(), words.end(), [](unsigned char c) { return std::isalnum(c) == 0 && c != '_'; }, ' ');
-            std::istringstream stream(words);
-            for (std::string word; stream >> word;)
-                if (names.contains(word) || word.find('_') != std::string::npos)
-                    found.push_back(word + " in " + letters_of(text));
-        }
-    };
-    for (const PlacedText& text : page.title)
-        search(text.text);
-    for (const LegendEntry& entry : page.legend)
-        search(entry.text);
-    for (const PanelLayout& panel : page.panels) {
-        for (const PlacedText& text : panel.texts)
-            search(text.text);
-        for (const LegendEntry& entry : panel.legend)
-            search(entry.text);
-        for (const PlacedLabel& label : panel.labels.labels)
-            search(rich(label.text));
-    }
-    return found;
-}
-
-} // namespace
 
 class ShippedPictures : public ::testing::TestWithParam<std::string> {};
 

@@ -48,7 +48,7 @@ TEST(LabelPlaces, OneLabelStandsWherePointsCoincide) {
 
 TEST(LabelPlaces, LabelsAwayFromTheirPointHaveLeaders) {
     FigurePanel panel = unit_panel();
-    FigureSeries symbols{"", FigureSeries::Style::symbols, 0, {}};
+    FigureSeries symbols{"", FigureSeries::Style::symbols};
     for (int i = 0; i < 5; ++i)
         for (int k = 0; k < 5; ++k) // symbols around the point in the centre, between which a leader can pass
             symbols.points.push_back({0.5 + 0.045 * (i - 2), 0.5 + 0.07 * (k - 2)});
@@ -63,7 +63,7 @@ TEST(LabelPlaces, LabelsAwayFromTheirPointHaveLeaders) {
 
 TEST(LabelPlaces, AmbiguousLabelsAreListed) {
     FigurePanel panel = unit_panel();
-    FigureSeries symbols{"", FigureSeries::Style::symbols, 0, {}};
+    FigureSeries symbols{"", FigureSeries::Style::symbols};
     for (int i = 0; i < 9; ++i)
         for (int k = 0; k < 9; ++k) // symbols so dense that every leader would cross one
             symbols.points.push_back({0.5 + 0.012 * (i - 4), 0.5 + 0.018 * (k - 4)});
@@ -76,7 +76,7 @@ TEST(LabelPlaces, AmbiguousLabelsAreListed) {
 
 TEST(LabelPlaces, EachLabelIsNearestToItsOwnSymbol) {
     FigurePanel panel = unit_panel();
-    FigureSeries symbols{"", FigureSeries::Style::symbols, 0, {}};
+    FigureSeries symbols{"", FigureSeries::Style::symbols};
     for (int i = 0; i < 12; ++i) {
         const PlanePoint at{0.4 + 0.013 * i, 0.4 + 0.02 * ((7 * i) % 5)};
         symbols.points.push_back(at);
@@ -92,7 +92,7 @@ TEST(LabelPlaces, EachLabelIsNearestToItsOwnSymbol) {
     for (const PlacedLabel& label : places.labels)
         for (const PlanePoint& point : symbols.points) {
             const PlanePoint other{300 * point.x, 200 * point.y};
-            if (std::hypot(other.x - label.point.x, other.y - label.point.y) < mark_size(9) / 2)
+            if (distance_of(label.point, other) < mark_size(9) / 2)
                 continue; // they have one label
             if (label.led)
                 EXPECT_FALSE(

@@ -1,7 +1,7 @@
 #include "picture/layout_labels.hpp"
 
 #include "graze/layout/layout.hpp"
-#include "layout/mask_edges.hpp"
+#include "layout/mask_outlines.hpp"
 
 #include <gtest/gtest.h>
 

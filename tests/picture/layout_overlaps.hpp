@@ -1,12 +1,11 @@
 #pragma once
 
-#include "picture/curve.hpp"
-#include "picture/figure_layout.hpp"
+#include "picture/figure_look.hpp"
+#include "picture/page_line.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <string>
 #include <utility>
@@ -74,30 +73,24 @@ inline std::vector<std::string> overlaps_of(const FigureLayout& page) {
 
 /// Messages about labels that a line of their panel crosses. @param counted is increased by the number of labels
 inline std::vector<std::string> labels_on_lines(const Figure& figure, const FigureLayout& page, std::size_t& counted) {
-    using Style = FigureSeries::Style;
     constexpr double step = 0.5; // points, which is less than the width of a line
     std::vector<std::string> found;
     for (std::size_t p = 0; p < page.panels.size(); ++p) {
         const PanelLayout& layout = page.panels[p];
         std::set<std::string> crossed;
         counted += layout.labels.labels.size();
-        const auto place_of = [&](const PlanePoint& point) {
-            return PlanePoint{layout.frame.left + layout.x.share(point.x) * layout.frame.width(),
-                              layout.frame.low + layout.y.share(point.y) * layout.frame.height()};
-        };
         for (const FigureSeries& series : figure.panels[p].series) {
-            if (series.style != Style::line && series.style != Style::dashed && series.style != Style::dotted)
+            if (!is_line(series.style))
                 continue;
             const Polyline line = smoothed(series.points, series.along, series.corners);
             for (std::size_t i = 1; i < line.size(); ++i) {
                 if (!is_drawn(line[i - 1], figure.panels[p]) || !is_drawn(line[i], figure.panels[p]))
                     continue;
-                const PlanePoint from = place_of(line[i - 1]), to = place_of(line[i]);
-                const double length = std::min(std::hypot(to.x - from.x, to.y - from.y), 1e4);
+                const PlanePoint from = on_page(line[i - 1], layout), to = on_page(line[i], layout);
+                const double length = std::min(distance_of(from, to), 1e4);
                 for (double at = 0; at <= length; at += step)
                     for (const PlacedLabel& label : layout.labels.labels)
-                        if (const double part = length > 0 ? at / length : 0; label.box.holds(
-                                PlanePoint{from.x + part * (to.x - from.x), from.y + part * (to.y - from.y)}))
+                        if (label.box.holds(between(from, to, length > 0 ? at / length : 0)))
                             crossed.insert(label.text);
             }
         }

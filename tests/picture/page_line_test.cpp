@@ -8,6 +8,8 @@
 
 namespace graze::testing {
 
+using ::testing::ElementsAre;
+
 namespace {
 
 const Box frame{0, 0, 300, 200};
@@ -32,6 +34,18 @@ double covered(const std::vector<Polyline>& one, const std::vector<Polyline>& ot
         seen += std::any_of(one.begin(), one.end(), holds) || std::any_of(other.begin(), other.end(), holds) ? 1 : 0;
     }
     return static_cast<double>(seen) / places;
+}
+
+std::vector<std::size_t> counts_of(const std::vector<FigureSeries>& series) {
+    FigurePanel panel;
+    panel.series = series;
+    PanelLayout layout;
+    layout.frame = frame;
+    return covering_lines(panel, layout);
+}
+
+FigureSeries line(std::size_t colour, std::vector<PlanePoint> points) {
+    return {"", FigureSeries::Style::line, colour, std::move(points)};
 }
 
 } // namespace
@@ -66,6 +80,26 @@ TEST(PageLine, DashesStayInTheFrame) {
     EXPECT_TRUE(dashes_of({{10, 10}}, dashed, frame).empty());
     EXPECT_EQ(spread_along({{0, 10}, {100, 10}}, 40, 10, frame).size(), 3U);
     EXPECT_EQ(spread_along({{-100, 10}, {100, 10}}, 40, 10, frame).front().x, 10);
+}
+
+TEST(CoveredLines, LinesAlongLaterLinesAreCovered) {
+    // Two curves that merge, with different points, and one that crosses both.
+    EXPECT_THAT(counts_of({line(0, {{0.45, 0.4}, {0.5, 0.5}, {1, 0.5}}),
+                           line(1, {{0, 1}, {0.5, 0.5}, {0.77, 0.5}, {1, 0.5}}), line(2, {{0.9, 0}, {0.7, 1}})}),
+                ElementsAre(1, 0, 0));
+}
+
+TEST(CoveredLines, LinesThatAreMostlyVisibleAreNotCovered) {
+    EXPECT_THAT(counts_of({line(0, {{0, 0}, {1, 0}}), line(1, {{0, 0.5}, {0.7, 0}, {1, 0}})}), ElementsAre(0, 0));
+    // Half a point apart.
+    EXPECT_THAT(counts_of({line(0, {{0, 0.5}, {1, 0.5}}), line(1, {{0, 0.503}, {1, 0.503}})}), ElementsAre(0, 0));
+}
+
+TEST(CoveredLines, LinesOfOneColourHaveOneCount) {
+    EXPECT_THAT(counts_of({line(0, {{0.4, 0.4}, {0.5, 0.5}}), line(0, {{0.5, 0.5}, {1, 0.5}}),
+                           line(1, {{0.5, 0.5}, {1, 0.5}}), line(2, {{0.5, 0.5}, {0.6, 0.5}, {1, 0.5}})}),
+                ElementsAre(2, 2, 1, 0));
+    EXPECT_THAT(counts_of({line(0, {{0, 0}, {1, 1}}), line(0, {{0, 0}, {1, 1}})}), ElementsAre(0, 0));
 }
 
 } // namespace graze::testing

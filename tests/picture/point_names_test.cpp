@@ -7,11 +7,10 @@
 #include "graze/study/stored_study.hpp"
 #include "graze/study/study_table.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <unistd.h>
+#include "../base/temporary_folder.hpp"
+#include "../layout/message_of.hpp"
 
-#include <filesystem>
+#include <gmock/gmock.h>
 
 namespace graze {
 namespace {
@@ -59,11 +58,6 @@ const std::string named = "point_names = { GR1 = \"first touch\" }\n";
 
 class PointNames : public ::testing::Test {
 protected:
-    PointNames() { std::filesystem::remove(path_); }
-    ~PointNames() override { std::filesystem::remove(path_); }
-    PointNames(const PointNames&) = delete;
-    PointNames& operator=(const PointNames&) = delete;
-
     std::vector<RunReport> run(const std::string& text) const {
         ResultFile file(path_, ResultFile::Access::write);
         return run_study(parse_study(text, "s.toml"), file, {});
@@ -79,8 +73,8 @@ protected:
         return labels;
     }
 
-    const std::string path_ =
-        (std::filesystem::temp_directory_path() / ("graze-names-" + std::to_string(getpid()) + ".sqlite")).string();
+    const testing::TemporaryFolder folder_;
+    const std::string path_ = folder_ / "results.sqlite";
 };
 
 TEST_F(PointNames, ReplaceLabels) {
@@ -143,12 +137,7 @@ TEST_F(PointNames, AreStoredWithTheStudy) {
 
 TEST(PointNamesOfStudies, AreRefusedIfAmbiguous) {
     const auto refusal = [](const std::string& names) {
-        try {
-            parse_study(study_text("point_names = " + names + "\n", "GR1"), "s.toml");
-        } catch (const InputError& error) {
-            return std::string(error.what());
-        }
-        return std::string();
+        return testing::message_of([&] { parse_study(study_text("point_names = " + names + "\n", "GR1"), "s.toml"); });
     };
     EXPECT_EQ(refusal("{ GR1 = \"SN-1\" }"), "");
     EXPECT_EQ(refusal("{ R1-1 = \"resonance\" }"), "");

@@ -4,6 +4,7 @@
 #include "graze/base/input_error.hpp"
 #include "graze/base/printable.hpp"
 #include "picture/gnuplot_text.hpp"
+#include "picture/rich_text.hpp"
 #include "program/output_file.hpp"
 #include "run_graze.hpp"
 
@@ -158,12 +159,12 @@ TEST_F(Hostile, TextForGnuplotStaysText) {
         if (controls) {
             EXPECT_THROW(plain(text), InputError);
             EXPECT_THROW(quoted_path(text), InputError);
-            EXPECT_THROW(name_text(text), InputError);
-            EXPECT_THROW(unit_text(text), InputError);
+            EXPECT_THROW(gnuplot_markup(rich_name(text)), InputError);
+            EXPECT_THROW(gnuplot_markup(rich_unit(text)), InputError);
             continue;
         }
         for (const std::string& escaped :
-             {plain(text), name_text(text), unit_text(text), with_unit(plain(text), text)}) {
+             {plain(text), gnuplot_markup(rich_name(text)), firm_blanks(gnuplot_markup(rich_unit(text)))}) {
             EXPECT_EQ(escaped.find_first_of("`@\n\r"), std::string::npos) << escaped;
             for (std::size_t at = 0; at < escaped.size(); ++at) // as gnuplot reads a text in double quotes
                 if (escaped[at] == '\\')

@@ -34,8 +34,9 @@ struct DeviceDrawing {
     GridBox die, chamber_box;          ///< chamber_box excludes the channel
 
     /// Beams, and trusses, of both flexures in coordinates of the device.
-    std::vector<GridBox> beams() const;
-    std::vector<GridBox> trusses() const;
+    std::vector<GridBox> beams() const { return in_both(flexure.beams); }
+    std::vector<GridBox> trusses() const { return in_both(flexure.trusses); }
+    std::vector<GridBox> in_both(const std::vector<GridBox>& of_flexure) const;
     GridBox in_device(const GridBox& of_flexure, bool in_lower) const;
 };
 

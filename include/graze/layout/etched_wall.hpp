@@ -23,11 +23,18 @@ struct EtchedWidth {
     double greatest() const { return top < bottom ? bottom : top; }
     double mean() const { return 0.5 * (top + bottom); }
     /// Mean of the third power over the depth, which determines bending in the plane.
-    double mean_cube() const;
+    double mean_cube() const {
+        // Integral of the cube of a linear function, factored to avoid cancellation of fourth powers.
+        return 0.25 * (top + bottom) * (top * top + bottom * bottom);
+    }
 };
 
 /// Returns the width of a line, or a trench, of a drawn width after an etch of a given depth.
-EtchedWidth etched_line(const EtchedWall& wall, double drawn, double depth);
-EtchedWidth etched_trench(const EtchedWall& wall, double drawn, double depth);
+inline EtchedWidth etched_line(const EtchedWall& wall, double drawn, double depth) {
+    return {drawn - 2 * wall.recess(0), drawn - 2 * wall.recess(depth)};
+}
+inline EtchedWidth etched_trench(const EtchedWall& wall, double drawn, double depth) {
+    return {drawn + 2 * wall.recess(0), drawn + 2 * wall.recess(depth)};
+}
 
 } // namespace graze

@@ -26,6 +26,8 @@ struct GridBox {
     }
     GridBox with(const GridBox& other) const; ///< smallest box that contains both
     bool contains(const GridBox& other) const;
+    bool contains(GridPoint point) const { return contains(GridBox{point.x, point.y, point.x, point.y}); }
+    GridPoint middle() const { return {(left + right) / 2, (bottom + top) / 2}; }
     /// Whether they share a point, including points on their edges.
     bool meets(const GridBox& other) const {
         return left <= other.right && other.left <= right && bottom <= other.top && other.bottom <= top;
@@ -38,7 +40,9 @@ using GridPolygon = std::vector<GridPoint>;
 
 GridPolygon polygon_of(const GridBox& box);
 GridBox bounding_box(std::span<const GridPoint> corners);
-/// Area in square micrometres, positive; computed exactly before rounding to a double, for sides up to two metres.
+/// Twice the area in square nanometres, positive for counterclockwise corners; exact for sides up to two metres.
+std::int64_t twice_area(std::span<const GridPoint> corners);
+/// Area in square micrometres, positive; computed exactly before rounding to a double.
 double area_of(std::span<const GridPoint> corners);
 double total_area(std::span<const GridPolygon> polygons);
 

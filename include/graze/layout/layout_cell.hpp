@@ -51,10 +51,10 @@ struct CellReference {
 
 /// A cell: polygons, texts and placements of other cells.
 struct LayoutCell {
-    std::string name;
-    std::vector<CellShape> shapes;
-    std::vector<CellText> texts;
-    std::vector<CellReference> references;
+    std::string name{};
+    std::vector<CellShape> shapes{};
+    std::vector<CellText> texts{};
+    std::vector<CellReference> references{};
 
     void add(MaskLayer layer, const GridPolygon& polygon) { shapes.push_back({layer, polygon}); }
     void add(MaskLayer layer, const GridBox& box) { add(layer, polygon_of(box)); }
@@ -67,8 +67,8 @@ struct LayoutCell {
 
 /// A library of cells; each cell precedes those that refer to it.
 struct LayoutLibrary {
-    std::string name;
-    std::vector<LayoutCell> cells;
+    std::string name{};
+    std::vector<LayoutCell> cells{};
 
     /// Null when there is none of that name; valid until cells are added or removed.
     const LayoutCell* find(std::string_view cell) const;

@@ -18,7 +18,9 @@ struct MatchedQuantity {
     bool met = false;             ///< no step of the grid brings it closer
     std::string reason;           ///< why not met
 
-    double relative() const; ///< relative deviation of the drawn from the designed value
+    double relative() const {
+        return drawn / designed - 1;
+    } ///< relative deviation of the drawn from the designed value
 };
 
 struct MatchedDrawing {

@@ -23,10 +23,10 @@ struct PlaneBox {
 struct FigureSeries {
     enum class Style { dots, circles, line, dashed, dotted, impulses, symbols, cells };
     static constexpr std::size_t grey = 1000, black = 1001; ///< colours outside of the palette
-    std::string title;                                      ///< plain text; empty: no entry in the legend
+    std::string title{};                                    ///< plain text; empty: no entry in the legend
     Style style = Style::dots;
     std::size_t colour = 0;             ///< index in the palette, or `grey` or `black`
-    std::vector<PlanePoint> points;     ///< a point that is not finite interrupts a line
+    std::vector<PlanePoint> points{};   ///< a point that is not finite interrupts a line
     int symbol = 7;                     ///< for symbols: number of gnuplot's point type
     bool only_in_legend = false;        ///< has no points and explains a style in the legend
     std::vector<PlaneBox> cells{};      ///< for cells: the filled rectangles
@@ -46,26 +46,26 @@ struct FigureLabel {
 
 /// A panel with two axes.
 struct FigurePanel {
-    std::string title;
-    std::string x_label, y_label, x_unit, y_unit; ///< names and units
-    std::string x_words, y_words;                 ///< descriptions of the names; may be empty
+    std::string title{};
+    std::string x_label{}, y_label{}, x_unit{}, y_unit{}; ///< names and units
+    std::string x_words{}, y_words{};                     ///< descriptions of the names; may be empty
     bool logarithmic_x = false, logarithmic_y = false;
     bool roomy_y = false; ///< larger margin between the data and the frame, above and below
     bool roomy_x = false; ///< the same at the sides
     std::size_t rows = 1; ///< number of rows that the panel spans if there are several columns
-    std::optional<std::pair<double, double>> x_range, y_range; ///< limits of the axes; none: those of the data
-    std::vector<FigureSeries> series;
-    std::vector<double> marks; ///< x of thin vertical lines
-    std::string marks_title{}; ///< meaning of these lines, for the legend
-    std::vector<FigureLabel> labels;
+    std::optional<std::pair<double, double>> x_range{}, y_range{}; ///< limits of the axes; none: those of the data
+    std::vector<FigureSeries> series{};
+    std::vector<double> marks{}; ///< x of thin vertical lines
+    std::string marks_title{};   ///< meaning of these lines, for the legend
+    std::vector<FigureLabel> labels{};
     std::vector<std::string> notes{}; ///< sentences under the panel, as about points that are left out
 };
 
 /// The contents of a picture, independent of the drawing program: panels row by row.
 struct Figure {
-    std::string title;
+    std::string title{};
     std::size_t columns = 1;
-    std::vector<FigurePanel> panels;
+    std::vector<FigurePanel> panels{};
     FigureStyle style{};
     std::vector<std::string> symbols{}; ///< names that are written as symbols in titles, legends and labels
 };

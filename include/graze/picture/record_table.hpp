@@ -56,6 +56,8 @@ protected:
     std::vector<std::size_t> channels_of(const RecordHeader& header) const {
         return header.chosen_channels(request_.channels, option("channel"));
     }
+    /// Index of the only channel that is asked for. @throws InputError with this problem when it is not one
+    std::size_t only_channel(const RecordHeader& header, const char* problem) const;
     std::string option(const char* name) const { return request_.asked_as + name; }
     const RecordTableRequest& request() const { return request_; }
     bool several() const { return several_; }

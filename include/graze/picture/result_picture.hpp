@@ -10,7 +10,7 @@ namespace graze {
 /// A picture made from results, and a table of the numbers that were computed for it; the table may be empty.
 struct ResultPicture {
     Figure figure;
-    Table table;
+    Table table{};
 };
 
 /// Makes a picture from results. @throws InputError when the results lack something that the picture asks for

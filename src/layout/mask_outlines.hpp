@@ -7,6 +7,11 @@
 
 namespace graze {
 
+/// Returns the outlines of the union of `boxes` minus `without`, within `clip`: axis-parallel polygons that do not
+/// overlap. @throws InternalError for an area with a hole, which a mask's polygon cannot have
+std::vector<GridPolygon> outlines(std::span<const GridBox> boxes, std::span<const GridBox> without,
+                                  const GridBox& clip);
+
 /// A straight part of the outline of the etched area.
 struct MaskEdge {
     std::int64_t at = 0;           ///< x of a vertical edge, y of a horizontal one
