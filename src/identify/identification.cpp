@@ -120,7 +120,7 @@ Identification identify_decrement(const EachRecord& records, const Identificatio
     std::vector<std::string> names;
     CommonUnits units;
     records([&](const std::string& name, SampleSource& record) {
-        channel = record.header().channel(settings.channel, settings.asked_as + "channel");
+        channel = record.header().channel(settings.channel, "channel");
         CommonUnitSource common(record, units, {channel});
         header = common.header();
         UsableSource usable(common, {channel});
@@ -180,8 +180,8 @@ Identification identify_restitution(const EachRecord& records, const Identificat
     std::vector<ImpactSpeeds> few;
     CommonUnits units;
     records([&](const std::string& name, SampleSource& record) {
-        const ImpactSettings of_impacts = impact_settings(record.header(), settings.channel, settings.displacement,
-                                                          settings.impacts, settings.asked_as);
+        const ImpactSettings of_impacts =
+            impact_settings(record.header(), settings.channel, settings.displacement, settings.impacts);
         std::vector<ImpactSpeeds> impacts;
         std::vector used{of_impacts.velocity};
         if (of_impacts.displacement)
@@ -244,15 +244,14 @@ Identification identify_restitution(const EachRecord& records, const Identificat
 
 Identification identify_coupling(const EachRecord& records, const IdentificationSettings& settings) {
     if (!settings.gap || !settings.stiffness)
-        throw InputError("gap or stiffness are not known",
-                         fmt::format("give {0}gap and {0}stiffness, in the units of the record", settings.asked_as));
+        throw InputError("gap or stiffness are not known", "give gap and stiffness, in the units of the record");
     std::vector<StaticLoad> loads;
     Channel displacement, current;
     CommonUnits units;
     records([&](const std::string&, SampleSource& record) {
         const RecordHeader& header = record.header();
-        const std::size_t q = header.channel(name_or(settings.displacement, "q"), settings.asked_as + "displacement"),
-                          i = header.channel(settings.current, settings.asked_as + "current");
+        const std::size_t q = header.channel(name_or(settings.displacement, "q"), "displacement"),
+                          i = header.channel(settings.current, "current");
         CommonUnitSource common(record, units, {q, i}, CommonUnitSource::Times::as_they_are);
         displacement = common.header().channels[q];
         current = common.header().channels[i];
@@ -335,18 +334,16 @@ Identification::Shown shown_current(const Samples& all, std::size_t current, con
 } // namespace
 
 Identification identify_impedance(const EachRecord& records, const IdentificationSettings& settings) {
-    const std::string& asked = settings.asked_as;
     if (settings.beta1.has_value() != settings.beta2.has_value() || (settings.beta1 && !settings.gap))
-        throw InputError("a leakage inductance needs beta1, beta2 and the gap",
-                         fmt::format("give {0}beta1, {0}beta2 and {0}gap, or none", asked));
+        throw InputError("a leakage inductance needs beta1, beta2 and the gap", "give beta1, beta2 and gap, or none");
     std::vector<Estimate> frequencies, resistances, inductances, leakages;
     std::vector<std::string> names;
     Identification found;
     std::string ohm, henry, hertz;
     CommonUnits units;
     records([&](const std::string& name, SampleSource& record) {
-        const std::size_t v = record.header().channel(settings.voltage, asked + "voltage"),
-                          c = record.header().channel(settings.current, asked + "current");
+        const std::size_t v = record.header().channel(settings.voltage, "voltage"),
+                          c = record.header().channel(settings.current, "current");
         CommonUnitSource common(record, units, {v, c});
         const RecordHeader& header = common.header();
         UsableSource usable(common, {v, c});
@@ -361,8 +358,8 @@ Identification identify_impedance(const EachRecord& records, const Identificatio
         check_residuals(found, name, header.channels[c].name, one.current_test, "a sine");
         if (const auto gap = longest_gap(all.times); gap && !settings.frequency && !one.voltage_test.is_noise())
             found.warnings.push_back(fmt::format("{}: there are no rows from {:.6g} to {:.6g}, so the frequency may "
-                                                 "be wrong: give an approximate one by {}frequency",
-                                                 name, gap->from, gap->to, asked));
+                                                 "be wrong: give an approximate one by frequency",
+                                                 name, gap->from, gap->to));
         if (settings.beta1)
             leakages.push_back(
                 leakage_inductance(one.inductance, *settings.beta1, *settings.beta2, *settings.gap, settings.clamped));

@@ -36,6 +36,24 @@ FigureSeries series_of(const std::string& title, FigureSeries::Style style, std:
     return {title, style, colour, {}};
 }
 
+FigurePanel trip_panel(const std::string& x, const std::string& x_unit, const std::string& y,
+                       const std::string& y_unit) {
+    FigurePanel panel;
+    panel.x_label = x;
+    panel.x_unit = x_unit;
+    panel.y_label = y;
+    panel.y_unit = y_unit;
+    panel.logarithmic_x = true;
+    panel.roomy_x = panel.roomy_y = true;
+    return panel;
+}
+
+Figure figure_with(FigurePanel panel) {
+    Figure figure;
+    figure.panels.push_back(std::move(panel));
+    return figure;
+}
+
 void add_touch(FigurePanel& panel, const OvershootTrips& trips, const std::string& which) {
     const std::string level = fmt::format("speed {:.4g}", level_until(trips.point, trips.end.end));
     const std::string& end = trips.end.words;
@@ -77,15 +95,10 @@ void add_fold(FigurePanel& panel, const OvershootTrips& trips, const std::string
 Figure trip_figure(const std::vector<OvershootTrips>& all) {
     require_index(0, all.size(), "point with trips");
     const LossPoint& point = all.front().point;
-    FigurePanel panel;
-    panel.x_label = point.name + (point.side > 0 ? " beyond its " : " short of its ") + point.kind();
-    if (all.size() > 1)
-        panel.x_label = "distance of " + point.name;
-    panel.x_unit = point.unit;
-    panel.y_label = "time";
-    panel.y_unit = point.model().time_unit;
-    panel.logarithmic_x = true;
-    panel.roomy_x = panel.roomy_y = true;
+    FigurePanel panel =
+        trip_panel(all.size() > 1 ? "distance of " + point.name
+                                  : point.name + (point.side > 0 ? " beyond its " : " short of its ") + point.kind(),
+                   point.unit, "time", point.model().time_unit);
     for (const OvershootTrips& trips : all) {
         const std::string which = all.size() > 1 ? std::string(trips.point.kind()) + ": " : "";
         panel.logarithmic_y = panel.logarithmic_y || trips.point.fold;
@@ -94,9 +107,63 @@ Figure trip_figure(const std::vector<OvershootTrips>& all) {
         else
             add_touch(panel, trips, which);
     }
-    Figure figure;
-    figure.panels.push_back(std::move(panel));
-    return figure;
+    return figure_with(std::move(panel));
+}
+
+Figure ramp_figure(const LossPoint& point, const std::vector<RampRow>& rows, const std::string& end) {
+    FigurePanel panel = trip_panel("rate of " + point.name, unit_of_rate(point), "delay of " + point.name, point.unit);
+    panel.logarithmic_y = true;
+    FigureSeries simulated = series_of("simulation, until " + end, FigureSeries::Style::circles, 1),
+                 predicted = series_of("normal form", FigureSeries::Style::dashed, 0);
+    for (const RampRow& row : rows) {
+        if (row.delay && *row.delay / row.rate > 0)
+            simulated.points.push_back({std::abs(row.rate), std::abs(*row.delay)});
+        if (row.predicted_delay)
+            predicted.points.push_back({std::abs(row.rate), std::abs(*row.predicted_delay)});
+    }
+    panel.series.push_back(simulated);
+    if (point.fold)
+        panel.series.push_back(predicted);
+    return figure_with(std::move(panel));
+}
+
+std::string unit_of_rate(const LossPoint& point) {
+    const std::string &unit = point.unit, &time = point.model().time_unit;
+    return unit.empty() && time.empty() ? ""
+                                        : fmt::format("{}/{}", unit.empty() ? "1" : unit, time.empty() ? "1" : time);
+}
+
+Figure wave_figure(const LossPoint& point, const TripOrigin& origin, const std::vector<double>& amplitudes,
+                   const std::vector<TripTime>& trips, const std::string& end) {
+    FigurePanel panel = trip_panel("amplitude of " + point.name, point.unit, "time", point.model().time_unit);
+    FigureSeries times = series_of("until " + end, FigureSeries::Style::circles, 1);
+    for (std::size_t i = 0; i < trips.size(); ++i)
+        if (trips[i].ended && amplitudes[i] != 0)
+            times.points.push_back({std::abs(amplitudes[i]), trips[i].time});
+    panel.marks.push_back(std::abs(origin.point - origin.value));
+    panel.series.push_back(times);
+    return figure_with(std::move(panel));
+}
+
+Figure noise_figure(const LossPoint& point, const std::vector<double>& levels, const std::vector<NoisyTrips>& all,
+                    const NoiseSettings& settings) {
+    using Style = FigureSeries::Style;
+    FigurePanel panel = trip_panel("level of noise in " + point.name, point.unit, "probability of a trip", "");
+    FigureSeries shares = series_of(fmt::format("within {} cycles", settings.cycles), Style::circles, 1),
+                 low =
+                     series_of(fmt::format("limits of confidence, {:g} %", 100 * settings.confidence), Style::line, 0),
+                 high = series_of("", Style::line, 0),
+                 beyond = series_of("beyond the " + std::string(point.kind()) + " at any time", Style::dotted, 2);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (levels[i] == 0) // has no place on the axis
+            continue;
+        shares.points.push_back({levels[i], all[i].probability.value});
+        low.points.push_back({levels[i], all[i].probability.low});
+        high.points.push_back({levels[i], all[i].probability.high});
+        beyond.points.push_back({levels[i], static_cast<double>(all[i].beyond) / static_cast<double>(all[i].motions)});
+    }
+    panel.series = {shares, low, high, beyond};
+    return figure_with(std::move(panel));
 }
 
 } // namespace graze

@@ -235,8 +235,7 @@ TEST(Identification, CouplingTakesRowsOrRecordsAsEquilibria) {
     constexpr double beta1 = 1.902e-5, beta2 = 1.631e-3, gap = 0.00479102312304, stiffness = 0.6462 * 95.94 * 95.94;
     const auto current_at = [&](double q) { return (gap + beta2 - q) * std::sqrt(2 * stiffness * q / beta1); };
     IdentificationSettings settings;
-    settings.asked_as = "--";
-    EXPECT_THAT(message_of([&] { identify_coupling(each({}), settings); }), HasSubstr("give --gap and --stiffness"));
+    EXPECT_THAT(message_of([&] { identify_coupling(each({}), settings); }), HasSubstr("give gap and stiffness"));
     settings.gap = gap;
     settings.stiffness = stiffness;
     const std::vector<Channel> channels{{"q", "m"}, {"I", "A"}};
@@ -286,10 +285,9 @@ TEST(Identification, ImpedanceWarnsOfSigns) {
     ASSERT_EQ(turned.warnings.size(), 2U) << "resistance and inductance are both negative";
     EXPECT_THAT(turned.warnings[0], HasSubstr("the resistance comes out below zero"));
     IdentificationSettings half;
-    half.asked_as = "--";
     half.beta1 = Estimate{1.9e-5, 0, 0};
     EXPECT_THAT(message_of([&] { identify_impedance(each({coil(1)}), half); }),
-                HasSubstr("give --beta1, --beta2 and --gap, or none"));
+                HasSubstr("give beta1, beta2 and gap, or none"));
 }
 
 /// The same record in other units; `times` and `values` are the factors of the numbers.
@@ -361,8 +359,7 @@ TEST(Identification, RefusesRecordsWithoutUsableNumbers) {
     EXPECT_THAT(message_of([&] { identify_decrement(each({huge}), {}); }), HasSubstr("(scale v="));
     IdentificationSettings other;
     other.channel = "w";
-    other.asked_as = "--";
-    EXPECT_THAT(message_of([&] { identify_decrement(each({release(0.1)}), other); }), HasSubstr("--channel"));
+    EXPECT_THAT(message_of([&] { identify_decrement(each({release(0.1)}), other); }), HasSubstr("channel: "));
 }
 
 } // namespace graze::testing

@@ -33,11 +33,10 @@ protected:
 } // namespace
 
 TEST_F(StudyTables, AreWrittenBesideTheResults) {
-    const Printed printed = run(folder / "study.toml");
-    EXPECT_EQ(printed.code, 0) << printed.err;
-    EXPECT_THAT(printed.out, HasSubstr("out/lows.csv\n"));
+    const std::string printed = done(run(folder / "study.toml"));
+    EXPECT_THAT(printed, HasSubstr("out/lows.csv\n"));
     // A study with tables and no pictures gets no default pictures.
-    EXPECT_THAT(printed.out, Not(HasSubstr(".png")));
+    EXPECT_THAT(printed, Not(HasSubstr(".png")));
     std::ifstream stream(table());
     std::string heading, x, t;
     std::getline(stream, heading);
@@ -72,9 +71,7 @@ TEST_F(StudyTables, NeverReplaceInputsOfTheStudy) {
     std::filesystem::create_directory(folder / "out");
     std::filesystem::create_hard_link(folder / "study.toml", table());
     const std::string before = contents(folder / "study.toml");
-    const Printed printed = run(folder / "study.toml");
-    EXPECT_EQ(printed.code, 2);
-    EXPECT_THAT(printed.err, HasSubstr("table 'lows' was not written"));
+    expect_refusal(run(folder / "study.toml"), "table 'lows' was not written");
     EXPECT_EQ(contents(folder / "study.toml"), before);
 }
 

@@ -72,21 +72,18 @@ TEST(ProcessedRecord, FiltersWavesThatDecimationWouldAlias) {
     }
 }
 
-TEST(ProcessedRecord, RefusesARecordWithoutRowsByTheNamesOfOptions) {
+TEST(ProcessedRecord, RefusesARecordWithoutRows) {
     RecordProcessing processing;
     processing.begin = 1e9;
-    for (const auto& [asked_as, remedy] :
-         {std::pair("", "let `part` leave some"), std::pair("--", "let the times leave some")})
-        try {
-            processing.asked_as = asked_as;
-            ProcessedRecord processed(record(), processing);
-            Samples samples;
-            processed.source().read(samples);
-            ADD_FAILURE() << "it was accepted";
-        } catch (const InputError& error) {
-            EXPECT_EQ(error.problem(), "the record has no rows");
-            EXPECT_NE(error.remedy().find(remedy), std::string::npos) << error.remedy();
-        }
+    try {
+        ProcessedRecord processed(record(), processing);
+        Samples samples;
+        processed.source().read(samples);
+        ADD_FAILURE() << "it was accepted";
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.problem(), "the record has no rows");
+        EXPECT_THAT(error.remedy(), ::testing::HasSubstr("let `part` leave some"));
+    }
 }
 
 TEST(ProcessedRecord, RefusesUnknownChannels) {
@@ -99,12 +96,11 @@ TEST(ProcessedRecord, RefusesUnknownChannels) {
         return "";
     };
     RecordProcessing processing;
-    processing.asked_as = "--";
     processing.scales = {{"y", 2, 0, {}}};
-    EXPECT_THAT(message(processing), ::testing::HasSubstr("--scale"));
+    EXPECT_THAT(message(processing), ::testing::HasSubstr("scale: "));
     processing.scales.clear();
     processing.derivative = "y";
-    EXPECT_THAT(message(processing), ::testing::HasSubstr("--derivative"));
+    EXPECT_THAT(message(processing), ::testing::HasSubstr("derivative: "));
     EXPECT_THAT(message(processing), ::testing::HasSubstr("'y'"));
 }
 
