@@ -2,9 +2,6 @@
 
 #include "program/commands.hpp"
 
-#include <string>
-#include <vector>
-
 namespace graze {
 
 namespace {

@@ -3,9 +3,6 @@
 #include "graze/identify/fit.hpp"
 #include "program/commands.hpp"
 
-#include <string>
-#include <vector>
-
 namespace graze {
 
 namespace {

@@ -3,9 +3,6 @@
 #include "graze/picture/record_table.hpp"
 #include "program/commands.hpp"
 
-#include <string>
-#include <vector>
-
 namespace graze {
 
 namespace {

@@ -3,8 +3,6 @@
 #include "graze/study/study_keys.hpp"
 #include "program/commands.hpp"
 
-#include <map>
-
 namespace graze {
 
 namespace {

@@ -221,9 +221,7 @@ TEST_F(Simulate, QuantitiesWithoutAValueAreEmptyAndReported) {
 TEST_F(Simulate, OutputIsCompleteOrMissing) {
     const std::string file = folder / "run.csv";
     const std::size_t before = folder.files();
-    const Printed run = simulate("oscillator.toml", "--format csv --output " + file);
-    EXPECT_EQ(run.code, 0) << run.err;
-    EXPECT_EQ(run.out, "");
+    EXPECT_EQ(done(simulate("oscillator.toml", "--format csv --output " + file)), "");
     EXPECT_EQ(Csv(contents(file)).rows.size(), 500U);
     EXPECT_EQ(folder.files(), before + 1) << "something was left behind";
     expect_refusal(simulate("oscillator.toml", "--steps 1000000000 --time 1e6 --output " + (folder / "no/such/file")),
