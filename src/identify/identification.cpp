@@ -131,7 +131,7 @@ Identification identify_decrement(const EachRecord& records, const Identificatio
     std::vector<std::string> names;
     CommonUnits units;
     records([&](const std::string& name, SampleSource& record) {
-        channel = record.header().channel(settings.channel, settings.asked_as + "channel");
+        channel = record.header().channel(settings.channel, "channel");
         UsableSource usable(record, units, {channel});
         header = usable.header();
         releases.push_back(decay_peaks(usable, channel, settings.peaks));
@@ -187,8 +187,8 @@ Identification identify_restitution(const EachRecord& records, const Identificat
     std::vector<ImpactSpeeds> few;
     CommonUnits units;
     records([&](const std::string& name, SampleSource& record) {
-        const ImpactSettings of_impacts = impact_settings(record.header(), settings.channel, settings.displacement,
-                                                          settings.impacts, settings.asked_as);
+        const ImpactSettings of_impacts =
+            impact_settings(record.header(), settings.channel, settings.displacement, settings.impacts);
         std::vector<ImpactSpeeds> impacts;
         std::vector used{of_impacts.velocity};
         if (of_impacts.displacement)
@@ -246,16 +246,14 @@ Identification identify_restitution(const EachRecord& records, const Identificat
 
 Identification identify_coupling(const EachRecord& records, const IdentificationSettings& settings) {
     if (!settings.gap || !settings.stiffness)
-        throw InputError("gap or stiffness are not known",
-                         fmt::format("give {0}gap and {0}stiffness, in the units of the record", settings.asked_as));
+        throw InputError("gap or stiffness are not known", "give gap and stiffness, in the units of the record");
     const std::string place = settings.displacement.empty() ? "q" : settings.displacement;
     std::vector<StaticLoad> loads;
     Channel displacement, current;
     CommonUnits units;
     records([&](const std::string&, SampleSource& record) {
         const RecordHeader& header = record.header();
-        const std::size_t q = header.channel(place, settings.asked_as + "displacement"),
-                          i = header.channel(settings.current, settings.asked_as + "current");
+        const std::size_t q = header.channel(place, "displacement"), i = header.channel(settings.current, "current");
         UsableSource usable(record, units, {q, i}, UsableSource::Times::as_they_are);
         displacement = usable.header().channels[q];
         current = usable.header().channels[i];
@@ -308,18 +306,16 @@ Identification identify_coupling(const EachRecord& records, const Identification
 }
 
 Identification identify_impedance(const EachRecord& records, const IdentificationSettings& settings) {
-    const std::string& asked = settings.asked_as;
     if (settings.beta1.has_value() != settings.beta2.has_value() || (settings.beta1 && !settings.gap))
-        throw InputError("a leakage inductance needs beta1, beta2 and the gap",
-                         fmt::format("give {0}beta1, {0}beta2 and {0}gap, or none", asked));
+        throw InputError("a leakage inductance needs beta1, beta2 and the gap", "give beta1, beta2 and gap, or none");
     std::vector<Estimate> frequencies, resistances, inductances, leakages;
     std::vector<std::string> names;
     Identification found;
     std::string ohm, henry, hertz;
     CommonUnits units;
     records([&](const std::string& name, SampleSource& record) {
-        const std::size_t v = record.header().channel(settings.voltage, asked + "voltage"),
-                          c = record.header().channel(settings.current, asked + "current");
+        const std::size_t v = record.header().channel(settings.voltage, "voltage"),
+                          c = record.header().channel(settings.current, "current");
         UsableSource usable(record, units, {v, c});
         const RecordHeader& header = usable.header();
         const Samples all = read_all(usable, most_samples);
@@ -333,8 +329,8 @@ Identification identify_impedance(const EachRecord& records, const Identificatio
         check_residuals(found, name, header.channels[c].name, one.current_test, "a sine");
         if (const auto gap = longest_gap(all.times); gap && !settings.frequency && !one.voltage_test.is_noise())
             found.warnings.push_back(fmt::format("{}: there are no rows from {:.6g} to {:.6g}, so the frequency may "
-                                                 "be wrong: give an approximate one by {}frequency",
-                                                 name, gap->from, gap->to, asked));
+                                                 "be wrong: give an approximate one by frequency",
+                                                 name, gap->from, gap->to));
         if (settings.beta1)
             leakages.push_back(
                 leakage_inductance(one.inductance, *settings.beta1, *settings.beta2, *settings.gap, settings.clamped));

@@ -22,15 +22,15 @@ public:
         header_ = record.header();
         channels_ = channels_of(header_);
         PeriodSettings settings;
-        settings.reference = reference_ = header_.channel(request().reference, option("reference"));
+        settings.reference = reference_ = header_.channel(request().reference, "reference");
         settings.level = request().level;
         settings.hysteresis = request().hysteresis;
         begin_record(file);
         const auto add = [&](const Period& period) {
-            require_few_rows(rows(), request().asked_as);
+            require_few_rows(rows());
             add_period(file, period);
         };
-        end_record(file, each_period(record.source(), settings, add, request().asked_as).amplitude);
+        end_record(file, each_period(record.source(), settings, add).amplitude);
     }
 
 protected:
@@ -124,7 +124,7 @@ protected:
         begin(columns);
         symmetry_ = {};
         for (const std::string& name : request().negated)
-            symmetry_.negated.push_back(header().channel(name, option("negate")));
+            symmetry_.negated.push_back(header().channel(name, "negate"));
         first_ = drawn_.size();
     }
     void add_period(const std::string&, const Period& period) override {

@@ -182,7 +182,7 @@ public:
                 histories_.add(file, header, channels, samples);
                 continue;
             }
-            require_few_rows(rows(), request().asked_as);
+            require_few_rows(rows());
             for (std::size_t i = 0; i < samples.rows(); ++i) {
                 begin_row(file);
                 rows().add(samples.times[i]);
@@ -245,8 +245,8 @@ public:
                {"after", velocity_.unit},
                {"after_error", velocity_.unit},
                {"ratio", ""}});
-        ImpactFinder finder(borrowed(record.source()), impact_settings(header, velocity_.name, request().displacement,
-                                                                       request().impacts, request().asked_as));
+        ImpactFinder finder(borrowed(record.source()),
+                            impact_settings(header, velocity_.name, request().displacement, request().impacts));
         std::vector<RecordedImpact> impacts;
         while (finder.next(impacts))
             for (const RecordedImpact& impact : impacts) {
@@ -290,9 +290,8 @@ void RecordTable::begin(const std::vector<Table::Column>& columns) {
                          [](const Table::Column& one, const Table::Column& other) {
                              return one.name == other.name && one.unit == other.unit;
                          }))
-        throw InputError(
-            "this record has other channels or units than those before",
-            fmt::format("look at records of one kind together, or choose {} that all of them have", option("channel")));
+        throw InputError("this record has other channels or units than those before",
+                         "look at records of one kind together, or choose channel that all of them have");
     begun_ = true;
 }
 
@@ -311,17 +310,16 @@ void label_y(FigurePanel& panel, const Channel& channel) {
     panel.y_unit = channel.unit;
 }
 
-void require_few_rows(const Table& table, const std::string& asked_as) {
+void require_few_rows(const Table& table) {
     if (table.rows() > most_rows)
-        throw InputError(
-            fmt::format("the table has more than {} rows", most_rows),
-            fmt::format("write the record to a file by {0}write, or take a part of it by {0}from and {0}to", asked_as));
+        throw InputError(fmt::format("the table has more than {} rows", most_rows),
+                         "write the record to a file by write, or take a part of it by from and to");
 }
 
 std::size_t RecordTable::only_channel(const RecordHeader& header, const char* problem) const {
     const std::vector<std::size_t> channels = channels_of(header);
     if (channels.size() != 1)
-        throw InputError(problem, "name it by " + option("channel"));
+        throw InputError(problem, "name it by channel");
     return channels.front();
 }
 
@@ -338,7 +336,7 @@ std::unique_ptr<RecordTable> record_table(const RecordTableRequest& request, boo
     if (request.reference.empty())
         throw InputError(fmt::format("nothing says what begins the periods of which {} are asked for",
                                      record_table_names()[static_cast<std::size_t>(request.what)]),
-                         fmt::format("name the channel of the input by {}reference", request.asked_as));
+                         "name the channel of the input by reference");
     return period_table(request, several);
 }
 

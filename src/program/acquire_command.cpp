@@ -46,11 +46,8 @@ const char* direction_name(int direction) {
 void print_levels(const Experiment& experiment, const Console& console) {
     Table table({{"number", ""}, {"frequency", "Hz"}, {"amplitude", "V"}, {"direction", ""}, {"file", ""}});
     for (const Level& level : experiment.levels) {
-        table.add(static_cast<double>(level.number));
-        table.add(level.frequency);
-        table.add(level.amplitude);
-        table.add(direction_name(level.direction));
-        table.add(experiment.record_name(level));
+        table.add(level.number, level.frequency, level.amplitude, direction_name(level.direction),
+                  experiment.record_name(level));
     }
     deliver(table, {}, {}, console);
 }

@@ -1,16 +1,18 @@
 #pragma once
 
-#include "graze/record/impacts.hpp"
-#include "graze/record/processed_record.hpp"
+#include "graze/picture/record_table.hpp"
+#include "graze/study/run_length.hpp"
+#include "graze/study/study.hpp"
 #include "program/table.hpp"
 
 #include <CLI/App.hpp>
 
+#include <algorithm>
 #include <cstddef>
-#include <functional>
-#include <map>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace graze {
@@ -48,9 +50,8 @@ struct SimulateArguments {
     std::string model, mode;
     std::vector<std::string> set, from;
 
-    std::string time, after, phase;
-    std::optional<int> periods, skip;
-    std::optional<int> contact_count;
+    std::string time, after;
+    RunLengthRequest length; ///< but for these times
 
     std::string table;
     bool contacts = false, minima = false;
@@ -63,10 +64,8 @@ struct SimulateArguments {
     std::vector<std::string> portraits;
     StyleArguments style;
 
-    double tolerance = 1e-12;
-    int order = 0;
+    SimulationOptions method; ///< but for the largest step
     std::string largest_step;
-    std::size_t steps = 100'000'000;
     bool progress = false, quiet = false;
 };
 
@@ -86,10 +85,10 @@ struct ExportArguments {
 };
 
 struct PlotArguments {
-    std::string file, kind, x, title, x_range, y_range, fit, group, output, data, x_label;
+    StudyPicture picture; ///< what is written as it is meant; lists hold items that may be separated by commas
+    std::string file, x_range, y_range, fit, output, data;
     StyleArguments style;
-    std::vector<std::string> runs, y, samples, directions, at, points, logarithmic, names, y_labels;
-    bool successive = false;
+    std::vector<std::string> at, logarithmic, names;
 };
 
 struct PointsArguments {
@@ -155,32 +154,18 @@ struct LayoutArguments {
 
 /// Items of lists may hold several values, separated by commas.
 struct RecordArguments {
-    std::vector<std::string> files;
-    std::string columns, group;
-    std::size_t skip = 0, names_line = 0, units_line = 0;
-    std::vector<std::string> scales;
-    std::optional<double> from, to;
-    std::optional<double> pass, stop;
-    std::size_t every = 1;
-    std::string derivative;
-    std::size_t half_width = 0;
-    std::string what = "channels", reference, displacement;
-    std::vector<std::string> channels, negated, phases;
-    double level = 0, hysteresis = 0;
-    ImpactWindow impacts;
-    std::size_t part = 0;
+    std::vector<std::string> files, scales, phases;
+    RecordProcessing processing;  ///< without scales
+    RecordTableRequest request{}; ///< without `what` and phases
+    std::string what = "channels";
     OutputArguments output;
     std::string write, plot, data;
 };
 
 struct IdentifyArguments {
     std::string what;
-    RecordArguments reading; ///< the files and how they are read; the output and the picture
-    std::string channel, displacement, voltage, current;
-    std::size_t peaks = 10;
-    ImpactWindow impacts;
-    std::optional<double> gap, stiffness, frequency;
-    double gap_error = 0, stiffness_error = 0, clamped = 0;
+    RecordArguments reading;   ///< the files and how they are read; the output and the picture
+    IdentifyRequest request;   ///< but for the following
     std::vector<double> noise; ///< standard deviations of displacement and current; empty: not given
     std::string beta1, beta2;
     // For fits: lists of NAME=VALUE and similar items, not yet parsed.
@@ -224,69 +209,19 @@ struct InfoArguments {
 };
 
 struct HelpArguments {
+    const CLI::App* app = nullptr; ///< all commands
     std::string command, folder;
     bool man = false;
 };
 
 struct CompletionArguments {
+    const CLI::App* app = nullptr;
     std::string shell, file;
 };
 
-struct Console;
-
-/// The options of all commands, and what the commands do.
-struct Arguments {
-    HelpArguments help;
-    CompletionArguments completion;
-    InfoArguments info;
-    RunArguments run;
-    ExportArguments exports;
-    PlotArguments plot;
-    PointsArguments points;
-    OrbitArguments orbit;
-    GrazingArguments grazing;
-    TripArguments trip;
-    LadderArguments ladder;
-    ToleranceArguments tolerance;
-    DesignArguments design;
-    LayoutArguments layout;
-    RecordArguments record;
-    IdentifyArguments identify;
-    BenchArguments bench;
-    AcquireArguments acquire;
-    CheckArguments check;
-    ModelsArguments models;
-    SimulateArguments simulate;
-    std::map<std::string, std::function<int(const Console&)>> commands; ///< by name; each returns the exit code
-
-    /// Registers a command. @param run what it does with its own options, which must outlive this
-    template <class Own>
-    void add_command(const char* name, int (*run)(const Own&, const Console&), const Own& own) {
-        commands[name] = [run, &own](const Console& console) { return run(own, console); };
-    }
-};
-
-/// Accepts only whole numbers within these bounds.
-CLI::Validator whole_number(long least, long most);
-/// These four accept only finite numbers: all, those above zero, those not below zero, and those within bounds.
-CLI::Validator finite_number();
-CLI::Validator positive_number();
-CLI::Validator non_negative_number();
-CLI::Validator number_between(double least, double most);
-/// Accepts only these words.
-CLI::Validator one_of(const std::vector<std::string>& words);
-
 /// Number of threads for the option `--jobs`: the number of cores if it is 0.
-int threads_for(int jobs);
-
-/// Declares the command line: one sub-command for each member of `arguments`. Empty values are refused, except for
-/// options declared as TEXT: an unset variable of a script would otherwise silently count as an option not given.
-void declare_arguments(CLI::App& app, Arguments& arguments);
-
-/// Joins `--contacts 4` into one word, since `--contacts` may also stand alone before the model's name.
-std::vector<std::string> with_joined_counts(std::vector<std::string> arguments);
-
-/// One line about what is wrong with a command line, and what to do.
-std::string explain(const CLI::ParseError& error, const CLI::App& app);
+inline int threads_for(int jobs) {
+    return jobs > 0 ? jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
 
 } // namespace graze

@@ -2,7 +2,7 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/base/rounded.hpp"
-#include "program/quantity.hpp"
+#include "program/commands.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>
@@ -40,7 +40,7 @@ void add_decades(std::vector<double>& values, double first, double last, const s
 
 NamedEnd end_of(const LossPoint& point, const TripArguments& arguments) {
     if (arguments.greatest_speed)
-        return end_at_speed(point, *arguments.greatest_speed, "--");
+        return end_at_speed(point, *arguments.greatest_speed);
     if (arguments.until == "end")
         return {{}, "the end", true};
     if (arguments.until.empty())
@@ -99,15 +99,8 @@ void tell_lacks(const std::vector<std::string>& lacks, const Console& console) {
 }
 
 JsonObject heading_of(const ResultFile& file, const AskedTrip& asked) {
-    const OrbitRecord& record = asked.stored.record;
     const LossPoint& point = asked.point;
-    JsonObject heading;
-    heading.add("graze", GRAZE_VERSION);
-    heading.add("file", file.path());
-    heading.add("model", point.model().name);
-    heading.add("run", asked.stored.run.record.name);
-    heading.add("number", static_cast<double>(record.number));
-    heading.add("label", record.label);
+    JsonObject heading = heading_of_point(file, asked.stored);
     heading.add("parameter", point.name);
     heading.add(point.kind(), point.value);
     heading.add("cycle", point.cycle);

@@ -1,8 +1,7 @@
-#include "program/branch_arguments.hpp"
+#include "program/command_line.hpp"
 
 #include "graze/branch/special_point.hpp"
 #include "program/commands.hpp"
-#include "program/declared_option.hpp"
 
 #include <fmt/format.h>
 
@@ -87,162 +86,133 @@ constexpr const char* tolerance_examples = R"(Examples:
 
 /// Declares a command about one point of a branch.
 template <class PointArguments>
-CLI::App& declare_of_point(CLI::App& app, const char* name, const char* text, const char* examples,
-                           PointArguments& arguments) {
-    CLI::App& command = *app.add_subcommand(name, text);
-    command.footer(examples);
-    command.add_option("FILE", arguments.file, "Result file, or the folder of a study")->type_name("")->required();
-    command.add_option("POINT", arguments.point, "LABEL, RUN:LABEL or RUN:NUMBER")->type_name("")->required();
-    return command;
+CommandLine::Declared<PointArguments> declare_of_point(CommandLine& line, const char* name, const char* text,
+                                                       const char* examples,
+                                                       int (*run)(const PointArguments&, const Console&)) {
+    auto declared = line.command(name, text, examples, run);
+    declared.options.add("FILE", declared.arguments.file, "Result file, or the folder of a study");
+    declared.options.add("POINT", declared.arguments.point, "LABEL, RUN:LABEL or RUN:NUMBER");
+    return declared;
 }
 
-void declare_points(CLI::App& app, PointsArguments& arguments) {
-    CLI::App& command = *app.add_subcommand("points", points_text());
-    command.footer(points_examples);
-    command.add_option("FILE", arguments.file, "Result file, or the folder of a study")->type_name("")->required();
-    const char* group = "What to show";
-    declare_option(command, group, "--run", arguments.runs, "RUN", "List only these runs (all branches)");
-    declare_option(command, group, "--type", arguments.types, "TYPE",
-                   "List only points of these types, such as GR,SN (all)");
-    command.add_flag("--all", arguments.output.all, "List regular points (type RG) too, and show all columns")
-        ->group(group);
-    declare_output(command, arguments.output);
+void declare_points(CommandLine& line) {
+    auto [options, points] = line.command("points", points_text(), points_examples, points_command);
+    options.add("FILE", points.file, "Result file, or the folder of a study");
+    options.in("What to show");
+    options.add("--run RUN", points.runs, "List only these runs (all branches)");
+    options.add("--type TYPE", points.types, "List only points of these types, such as GR,SN (all)");
+    options.add("--all", points.output.all, "List regular points (type RG) too, and show all columns");
+    options.output(points.output);
 }
 
-void declare_orbit(CLI::App& app, OrbitArguments& arguments) {
-    CLI::App& command = declare_of_point(app, "orbit", orbit_text, orbit_examples, arguments);
-    const char* group = "What to show";
-    declare_option(command, group, "--quantity", arguments.quantities, "EXPR",
-                   "Further columns: quantities of the model, or any expressions in its names");
-    declare_option(command, group, "--samples", arguments.samples, "N", "Approximate number of rows of a period (200)")
-        ->check(whole_number(1, 1'000'000));
-    declare_table(command, arguments.output);
-    group = "Picture";
-    declare_option(command, group, "--plot", arguments.plot, "FILE", "Draw the orbit instead, as svg, png, pdf or eps");
-    declare_option(command, group, "--x", arguments.x, "NAME",
-                   "Horizontal axis: a state or quantity, or t for time histories (a state)");
-    declare_option(command, group, "--y", arguments.y, "NAME",
-                   "Vertical axes, one panel each (the velocity of --x; all states for --x t)");
-    declare_data(command, arguments.data);
+void declare_orbit(CommandLine& line) {
+    auto [options, orbit] = declare_of_point(line, "orbit", orbit_text, orbit_examples, orbit_command);
+    options.in("What to show");
+    options.add("--quantity EXPR", orbit.quantities,
+                "Further columns: quantities of the model, or any expressions in its names");
+    options.add("--samples N", orbit.samples, "Approximate number of rows of a period (200)",
+                whole_number(1, 1'000'000));
+    options.table(orbit.output);
+    options.picture(orbit.plot, orbit.data, "Draw the orbit instead, as svg, png, pdf or eps");
+    options.add("--x NAME", orbit.x, "Horizontal axis: a state or quantity, or t for time histories (a state)");
+    options.add("--y NAME", orbit.y, "Vertical axes, one panel each (the velocity of --x; all states for --x t)");
 }
 
-void declare_grazing(CLI::App& app, GrazingArguments& arguments) {
-    CLI::App& command = declare_of_point(app, "grazing", grazing_text, grazing_examples, arguments);
-    const char* group = "What to show";
-    declare_option(command, group, "--parameter", arguments.parameter, "NAME",
-                   "Parameter that moves the orbit through the grazing (the parameter of its run)");
-    command.add_flag("--verify", arguments.verify, "Check the verdict by simulation near the grazing")->group(group);
-    declare_table(command, arguments.output);
+void declare_grazing(CommandLine& line) {
+    auto [options, grazing] = declare_of_point(line, "grazing", grazing_text, grazing_examples, grazing_command);
+    options.in("What to show");
+    options.add("--parameter NAME", grazing.parameter,
+                "Parameter that moves the orbit through the grazing (the parameter of its run)");
+    options.add("--verify", grazing.verify, "Check the verdict by simulation near the grazing");
+    options.table(grazing.output);
 }
 
-void declare_disturbances(CLI::App& command, TripArguments& arguments) {
-    const char* group = "Parameter that changes in time";
-    declare_option(command, group, "--ramp", arguments.ramps, "RATES",
-                   "The parameter rises or falls linearly at these rates per unit of time: a list, or FIRST:LAST "
-                   "for each decade");
-    declare_option(command, group, "--wave", arguments.waves, "AMPLITUDES",
-                   "The parameter oscillates about the value of --at with these amplitudes");
-    declare_option(command, group, "--wave-period", arguments.wave_period, "CYCLES",
-                   "Period of the wave in cycles of the orbit (100)")
-        ->check(positive_number());
-    declare_option(
-        command, group, "--noise", arguments.noises, "LEVELS",
-        "The parameter is the value of --at plus noise of these standard deviations, constant in each cycle");
-    declare_option(command, group, "--memory", arguments.memory, "CYCLES",
-                   "Correlation time of the noise in cycles (0: independent from cycle to cycle)")
-        ->check(non_negative_number());
-    declare_option(command, group, "--at", arguments.at, "VALUE",
-                   "Undisturbed value of the parameter, before the point; for a ramp, its first value");
-    declare_option(command, group, "--motions", arguments.motions, "N",
-                   "Number of motions simulated at each level of noise (1000)")
-        ->check(whole_number(1, 100'000'000));
-    declare_option(command, group, "--seed", arguments.seed, "N", "Seed of the noise (1)")
-        ->check(whole_number(0, 1'000'000'000));
-    declare_option(command, group, "--jobs", arguments.jobs, "N",
-                   "Threads (one for each core); results do not depend on them")
-        ->check(whole_number(1, 1024));
+void declare_disturbances(CommandOptions& options, TripArguments& trip) {
+    options.in("Parameter that changes in time");
+    options.add("--ramp RATES", trip.ramps,
+                "The parameter rises or falls linearly at these rates per unit of time: a list, or FIRST:LAST "
+                "for each decade");
+    options.add("--wave AMPLITUDES", trip.waves,
+                "The parameter oscillates about the value of --at with these amplitudes");
+    options.add("--wave-period CYCLES", trip.wave_period, "Period of the wave in cycles of the orbit (100)",
+                positive_number());
+    options.add("--noise LEVELS", trip.noises,
+                "The parameter is the value of --at plus noise of these standard deviations, constant in each cycle");
+    options.add("--memory CYCLES", trip.memory,
+                "Correlation time of the noise in cycles (0: independent from cycle to cycle)", non_negative_number());
+    options.add("--at VALUE", trip.at,
+                "Undisturbed value of the parameter, before the point; for a ramp, its first value");
+    options.add("--motions N", trip.motions, "Number of motions simulated at each level of noise (1000)",
+                whole_number(1, 100'000'000));
+    options.seed(trip.seed, "Seed of the noise (1)");
+    options.jobs(trip.jobs);
 }
 
-void declare_trip(CLI::App& app, TripArguments& arguments) {
-    CLI::App& command = declare_of_point(app, "trip", trip_text, trip_examples, arguments);
-    const char* group = "What to compute";
-    declare_option(command, group, "--parameter", arguments.parameter, "NAME",
-                   "Parameter that is moved beyond the point (the parameter of its run)");
-    declare_option(command, group, "--beside", arguments.beside, "POINT",
-                   "Another point to compare, with overshoots of the same size");
-    declare_option(command, group, "--overshoot", arguments.overshoots, "VALUES",
-                   "Signed distances of the parameter beyond the point: a list, or FIRST:LAST for each decade");
-    declare_option(command, group, "--disturbance", arguments.disturbances, "STATE=VALUE",
-                   "Disturbance of the initial state, which is the state at the grazing (none)");
+void declare_trip(CommandLine& line) {
+    auto [options, trip] = declare_of_point(line, "trip", trip_text, trip_examples, trip_command);
+    options.in("What to compute");
+    options.add("--parameter NAME", trip.parameter,
+                "Parameter that is moved beyond the point (the parameter of its run)");
+    options.add("--beside POINT", trip.beside, "Another point to compare, with overshoots of the same size");
+    options.add("--overshoot VALUES", trip.overshoots,
+                "Signed distances of the parameter beyond the point: a list, or FIRST:LAST for each decade");
+    options.add("--disturbance STATE=VALUE", trip.disturbances,
+                "Disturbance of the initial state, which is the state at the grazing (none)");
     auto* until =
-        declare_option(command, group, "--until", arguments.until, "EXPR=LEVEL",
-                       "End where EXPR reaches LEVEL, or `end`: where the motion itself ends (the map's limit; beyond "
-                       "the fold)");
-    declare_option(command, group, "--greatest-speed", arguments.greatest_speed, "SPEED",
-                   "End at the first contact with this approach speed")
-        ->check(positive_number())
+        options.add("--until EXPR=LEVEL", trip.until,
+                    "End where EXPR reaches LEVEL, or `end`: where the motion itself ends (the map's limit; beyond "
+                    "the fold)");
+    options
+        .add("--greatest-speed SPEED", trip.greatest_speed, "End at the first contact with this approach speed",
+             positive_number())
         ->excludes(until);
-    declare_option(command, group, "--cycles", arguments.cycles, "N",
-                   "Largest number of simulated cycles, for a ramp of those beyond the point (2000; 100 under noise)")
-        ->check(whole_number(1, 1'000'000));
-    declare_disturbances(command, arguments);
-    declare_table(command, arguments.output);
-    group = "Picture";
-    declare_option(command, group, "--plot", arguments.plot, "FILE", "Draw the table instead, as svg, png, pdf or eps");
-    declare_data(command, arguments.data);
+    options.add("--cycles N", trip.cycles,
+                "Largest number of simulated cycles, for a ramp of those beyond the point (2000; 100 under noise)",
+                whole_number(1, 1'000'000));
+    declare_disturbances(options, trip);
+    options.table(trip.output);
+    options.picture(trip.plot, trip.data, "Draw the table instead, as svg, png, pdf or eps");
 }
 
-void declare_ladder(CLI::App& app, LadderArguments& arguments) {
-    CLI::App& command = declare_of_point(app, "ladder", ladder_text, ladder_examples, arguments);
-    const char* group = "How far";
-    declare_option(command, group, "--rungs", arguments.rungs, "N",
-                   "Largest number of grazings, POINT included (8); more come closer to the onset of chatter")
-        ->check(whole_number(2, 1000));
-    declare_option(command, group, "--parameter", arguments.parameter, "NAME",
-                   "Parameter that varies (the parameter of its run, within the same bounds)");
-    declare_table(command, arguments.output);
+void declare_ladder(CommandLine& line) {
+    auto [options, ladder] = declare_of_point(line, "ladder", ladder_text, ladder_examples, ladder_command);
+    options.in("How far");
+    options.add("--rungs N", ladder.rungs,
+                "Largest number of grazings, POINT included (8); more come closer to the onset of chatter",
+                whole_number(2, 1000));
+    options.add("--parameter NAME", ladder.parameter,
+                "Parameter that varies (the parameter of its run, within the same bounds)");
+    options.table(ladder.output);
 }
 
-void declare_tolerance(CLI::App& app, ToleranceArguments& arguments) {
-    CLI::App& command = declare_of_point(app, "tolerance", tolerance_text, tolerance_examples, arguments);
-    const char* group = "What to find";
-    declare_option(command, group, "--parameter", arguments.parameter, "NAME",
-                   "Parameter whose value at the point is a function of the others (the parameter of its run)");
-    declare_option(command, group, "--vary", arguments.vary, "NAME=SIZE",
-                   "Standard deviations of parameters: numbers, or percentages of the value; SIZE:uniform: half width "
-                   "of a uniform distribution");
-    declare_option(command, group, "--within", arguments.within, "LOW:HIGH",
-                   "Acceptable values, of which the yield is computed; one side may be left out");
-    declare_option(command, group, "--devices", arguments.devices, "N",
-                   "Number of devices that are drawn at random (10000)")
-        ->check(whole_number(1, 100'000'000));
-    declare_option(command, group, "--seed", arguments.seed, "N", "Seed of the random numbers (1)")
-        ->check(whole_number(0, 1'000'000'000));
-    declare_option(command, group, "--jobs", arguments.jobs, "N",
-                   "Threads (one for each core); results do not depend on them")
-        ->check(whole_number(1, 1024));
-    declare_table(command, arguments.output);
-    group = "Picture";
-    declare_option(command, group, "--plot", arguments.plot, "FILE",
-                   "Draw the distribution of the devices too, as svg, png or pdf");
-    declare_data(command, arguments.data);
+void declare_tolerance(CommandLine& line) {
+    auto [options, tolerance] =
+        declare_of_point(line, "tolerance", tolerance_text, tolerance_examples, tolerance_command);
+    options.in("What to find");
+    options.add("--parameter NAME", tolerance.parameter,
+                "Parameter whose value at the point is a function of the others (the parameter of its run)");
+    options.add("--vary NAME=SIZE", tolerance.vary,
+                "Standard deviations of parameters: numbers, or percentages of the value; SIZE:uniform: half width "
+                "of a uniform distribution");
+    options.add("--within LOW:HIGH", tolerance.within,
+                "Acceptable values, of which the yield is computed; one side may be left out");
+    options.add("--devices N", tolerance.devices, "Number of devices that are drawn at random (10000)",
+                whole_number(1, 100'000'000));
+    options.seed(tolerance.seed, "Seed of the random numbers (1)");
+    options.jobs(tolerance.jobs);
+    options.table(tolerance.output);
+    options.picture(tolerance.plot, tolerance.data, "Draw the distribution of the devices too, as svg, png or pdf");
 }
 
 } // namespace
 
-void declare_branch_commands(CLI::App& app, Arguments& arguments) {
-    declare_points(app, arguments.points);
-    arguments.add_command("points", points_command, arguments.points);
-    declare_orbit(app, arguments.orbit);
-    arguments.add_command("orbit", orbit_command, arguments.orbit);
-    declare_grazing(app, arguments.grazing);
-    arguments.add_command("grazing", grazing_command, arguments.grazing);
-    declare_trip(app, arguments.trip);
-    arguments.add_command("trip", trip_command, arguments.trip);
-    declare_ladder(app, arguments.ladder);
-    arguments.add_command("ladder", ladder_command, arguments.ladder);
-    declare_tolerance(app, arguments.tolerance);
-    arguments.add_command("tolerance", tolerance_command, arguments.tolerance);
+void declare_branch_commands(CommandLine& line) {
+    declare_points(line);
+    declare_orbit(line);
+    declare_grazing(line);
+    declare_trip(line);
+    declare_ladder(line);
+    declare_tolerance(line);
 }
 
 } // namespace graze

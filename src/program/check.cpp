@@ -6,7 +6,7 @@
 #include "graze/trajectory/trajectory.hpp"
 #include "program/commands.hpp"
 #include "program/describe.hpp"
-#include "program/graph.hpp"
+#include "program/drawing.hpp"
 #include "program/output_file.hpp"
 #include "program/values.hpp"
 

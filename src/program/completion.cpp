@@ -10,7 +10,7 @@
 #include "graze/results/run_kind.hpp"
 #include "graze/results/table_recorder.hpp"
 #include "graze/study/study_catalogue.hpp"
-#include "program/identify_arguments.hpp"
+#include "program/command_line.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

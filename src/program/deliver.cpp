@@ -33,6 +33,17 @@ void deliver(const Table& given, const OutputArguments& output, const JsonObject
         console.err << "graze: long signatures are shortened; --all shows them whole\n";
 }
 
+JsonObject heading_of_point(const ResultFile& file, const StoredOrbit& stored) {
+    JsonObject heading;
+    heading.add("graze", GRAZE_VERSION);
+    heading.add("file", file.path());
+    heading.add("model", stored.run.model.name);
+    heading.add("run", stored.run.record.name);
+    heading.add("number", static_cast<double>(stored.record.number));
+    heading.add("label", stored.record.label);
+    return heading;
+}
+
 void require_delivered(const Console& console) {
     console.out.flush();
     if (!console.out)

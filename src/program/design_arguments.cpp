@@ -1,7 +1,6 @@
-#include "program/design_arguments.hpp"
+#include "program/command_line.hpp"
 
 #include "program/commands.hpp"
-#include "program/declared_option.hpp"
 
 namespace graze {
 
@@ -21,25 +20,19 @@ constexpr const char* design_examples = R"(Examples:
 
 } // namespace
 
-void declare_design_command(CLI::App& app, Arguments& arguments) {
-    DesignArguments& design = arguments.design;
-    CLI::App& command = *app.add_subcommand("design", design_text);
-    command.footer(design_examples);
-    arguments.add_command("design", design_command, arguments.design);
-    command.add_option("DESIGN", design.design, "Name of a shipped design, or a file")->type_name("");
-    const auto flag = [&](const char* group, const char* name, bool& value, const char* text) {
-        return command.add_flag(name, value, text)->group(group);
-    };
-    declare_option(command, "Where results go", "--output", design.folder, "FOLDER",
-                   "Folder of the results, created if necessary (the design's name)");
-    flag("Where results go", "--no-pictures", design.no_pictures, "Do not draw the page");
-    flag("Instead of a design", "--list", design.list, "List the shipped designs");
-    flag("Instead of a design", "--show", design.show, "Print the file of a shipped design, as a copy to change");
-    declare_option(command, "How it is done", "--jobs", design.jobs, "N",
-                   "Number of threads (one for each core); results do not depend on it")
-        ->check(whole_number(1, 1024));
-    flag("How it is done", "--quiet", design.quiet, "Do not print the table");
-    declare_digits(command, design.output);
+void declare_design_command(CommandLine& line) {
+    auto [options, design] = line.command("design", design_text, design_examples, design_command);
+    options.add("[DESIGN]", design.design, "Name of a shipped design, or a file");
+    options.in("Where results go");
+    options.add("--output FOLDER", design.folder, "Folder of the results, created if necessary (the design's name)");
+    options.add("--no-pictures", design.no_pictures, "Do not draw the page");
+    options.in("Instead of a design");
+    options.add("--list", design.list, "List the shipped designs");
+    options.add("--show", design.show, "Print the file of a shipped design, as a copy to change");
+    options.in("How it is done");
+    options.jobs(design.jobs);
+    options.add("--quiet", design.quiet, "Do not print the table");
+    options.digits(design.output);
 }
 
 } // namespace graze

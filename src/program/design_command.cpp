@@ -45,9 +45,7 @@ int list_designs(const DesignArguments& arguments, const Console& console) {
     Table table({{"design", ""}, {"model", ""}, {"what it does", ""}});
     for (const std::string& name : shipped_designs()) {
         const Design design = load_design(name);
-        table.add(name);
-        table.add(design.model.name);
-        table.add(design.text);
+        table.add(name, design.model.name, design.text);
     }
     deliver(table, arguments.output, {}, console);
     return exit_success;

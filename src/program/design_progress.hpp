@@ -1,11 +1,22 @@
 #pragma once
 
 #include "graze/design/design_report.hpp"
+#include "program/arguments.hpp"
+#include "program/interrupt.hpp"
 #include "program/status_line.hpp"
 
 namespace graze {
 
 /// Options of a design's computations that stop on an interrupt and show progress on `line`, which must outlive them.
-DesignReportOptions interactive_options(int jobs, StatusLine& line);
+inline DesignReportOptions interactive_options(int jobs, StatusLine& line) {
+    DesignReportOptions options;
+    options.jobs = threads_for(jobs);
+    options.interrupted = [] { return InterruptGuard::requested(); };
+    options.progress = [&line](const std::string& what) {
+        if (line.is_due())
+            line.show(what);
+    };
+    return options;
+}
 
 } // namespace graze

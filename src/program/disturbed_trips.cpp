@@ -1,13 +1,12 @@
-#include "program/disturbed_trips.hpp"
+#include "program/commands.hpp"
 
 #include "base/special_numbers.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/with_place.hpp"
-#include "graze/picture/figure_script.hpp"
+#include "graze/picture/trip_series.hpp"
 #include "graze/trip/disturbed_trip.hpp"
 #include "graze/trip/noisy_trip.hpp"
 #include "program/asked_trip.hpp"
-#include "program/commands.hpp"
 #include "program/drawing.hpp"
 #include "program/interrupt.hpp"
 #include "program/status_line.hpp"
@@ -15,8 +14,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -62,21 +59,6 @@ TripOptions options_of(const AskedTrips& asked) {
     return options;
 }
 
-FigurePanel panel_of(const std::string& x, const std::string& x_unit, const std::string& y, const std::string& y_unit) {
-    FigurePanel panel;
-    panel.x_label = x;
-    panel.x_unit = x_unit;
-    panel.y_label = y;
-    panel.y_unit = y_unit;
-    panel.logarithmic_x = true;
-    panel.roomy_x = panel.roomy_y = true;
-    return panel;
-}
-
-FigureSeries series_of(const std::string& title, FigureSeries::Style style, std::size_t colour) {
-    return {title, style, colour, {}};
-}
-
 /// Notes how many rows were asked for and how many are done.
 void note_rows(AskedTrips& asked, std::size_t wanted, std::size_t done) {
     asked.wanted = wanted;
@@ -86,26 +68,18 @@ void note_rows(AskedTrips& asked, std::size_t wanted, std::size_t done) {
 
 void ramp(AskedTrips& asked) {
     const LossPoint& point = asked.point;
-    const std::string& time = point.model().time_unit;
-    const std::string rate_unit =
-        point.unit.empty() && time.empty()
-            ? ""
-            : fmt::format("{}/{}", point.unit.empty() ? "1" : point.unit, time.empty() ? "1" : time);
+    const std::string &time = point.model().time_unit, rate_unit = unit_of_rate(point);
     std::vector<Table::Column> columns{{"rate", rate_unit},   {"from", point.unit}, {"value", point.unit},
                                        {"delay", point.unit}, {"delay_cycles", ""}, {"time", time},
                                        {"ending", ""}};
     if (point.fold)
         columns.push_back({"predicted_delay", point.unit});
     asked.table = Table(std::move(columns));
-    FigurePanel panel = panel_of("rate of " + point.name, rate_unit, "delay of " + point.name, point.unit);
-    panel.logarithmic_y = true;
-    FigureSeries simulated = series_of("simulation, until " + asked.trip.end.words, FigureSeries::Style::circles, 1),
-                 predicted = series_of("normal form", FigureSeries::Style::dashed, 0);
     const std::vector<double> rates = numbers_by_decades(point.model(), asked.arguments.ramps, "--ramp");
     const std::vector<RampRow> rows = with_place({"--ramp", 0, 0}, [&] {
         const auto from =
             asked.arguments.at.empty() ? std::nullopt : std::optional(asked.number(asked.arguments.at, "at"));
-        return ramped_trips(point, rates, from, asked.trip.end.end, options_of(asked), "--");
+        return ramped_trips(point, rates, from, asked.trip.end.end, options_of(asked));
     });
     note_rows(asked, rates.size(), rows.size());
     for (const RampRow& row : rows) {
@@ -114,24 +88,12 @@ void ramp(AskedTrips& asked) {
         if (!trip.ended)
             asked.lacks.push_back(fmt::format("the ramp of {:g} has not come to its end: {}", row.rate,
                                               why_not(trip, "give more --cycles, or another end by --until")));
-        asked.table.add(row.rate);
-        asked.table.add(row.from);
-        asked.table.add(trip.ended ? row.ramped.value : not_a_number);
-        asked.table.add(delay);
-        asked.table.add(delay / (row.rate * point.cycle));
-        asked.table.add(trip.ended ? trip.time : not_a_number);
-        asked.table.add(trip.ending);
-        if (delay / row.rate > 0)
-            simulated.points.push_back({std::abs(row.rate), std::abs(delay)});
-        if (row.predicted_delay) {
+        asked.table.add(row.rate, row.from, trip.ended ? row.ramped.value : not_a_number, delay,
+                        delay / (row.rate * point.cycle), trip.ended ? trip.time : not_a_number, trip.ending);
+        if (row.predicted_delay)
             asked.table.add(*row.predicted_delay);
-            predicted.points.push_back({std::abs(row.rate), std::abs(*row.predicted_delay)});
-        }
     }
-    panel.series.push_back(simulated);
-    if (point.fold)
-        panel.series.push_back(predicted);
-    asked.figure.panels.push_back(std::move(panel));
+    asked.figure = ramp_figure(point, rows, asked.trip.end.words);
 }
 
 void wave(AskedTrips& asked) {
@@ -141,8 +103,6 @@ void wave(AskedTrips& asked) {
     const double period = asked.arguments.wave_period.value_or(usual) * origin.cycle;
     asked.table = Table(
         {{"amplitude", point.unit}, {"trips", ""}, {"cycles", ""}, {"time", point.model().time_unit}, {"ending", ""}});
-    FigurePanel panel = panel_of("amplitude of " + point.name, point.unit, "time", point.model().time_unit);
-    FigureSeries times = series_of("until " + asked.trip.end.words, FigureSeries::Style::circles, 1);
     const std::vector<double> amplitudes = numbers_by_decades(point.model(), asked.arguments.waves, "--wave");
     const std::vector<TripTime> trips = with_place({"--wave", 0, 0}, [&] {
         return swung_trips(point, origin, amplitudes, period, asked.trip.end.end, options_of(asked));
@@ -154,17 +114,10 @@ void wave(AskedTrips& asked) {
             asked.lacks.push_back(
                 fmt::format("the wave of {:g} has not been simulated to its end: {}", amplitudes[i],
                             why_not(trip, "look at whether the parameter has a meaning as far as it swings")));
-        asked.table.add(amplitudes[i]);
-        asked.table.add(trip.ended ? "yes" : "no");
-        asked.table.add(trip.ended ? trip.cycles : not_a_number);
-        asked.table.add(trip.ended ? trip.time : not_a_number);
-        asked.table.add(trip.ending);
-        if (trip.ended && amplitudes[i] != 0)
-            times.points.push_back({std::abs(amplitudes[i]), trip.time});
+        asked.table.add(amplitudes[i], trip.ended ? "yes" : "no", trip.ended ? trip.cycles : not_a_number,
+                        trip.ended ? trip.time : not_a_number, trip.ending);
     }
-    panel.marks.push_back(std::abs(origin.point - origin.value));
-    panel.series.push_back(times);
-    asked.figure.panels.push_back(std::move(panel));
+    asked.figure = wave_figure(point, origin, amplitudes, trips, asked.trip.end.words);
 }
 
 NoiseSettings settings_of(const AskedTrips& asked) {
@@ -183,22 +136,8 @@ void noise(AskedTrips& asked) {
     const LossPoint& point = asked.point;
     const TripOrigin origin = resting_origin(asked, "noise");
     const NoiseSettings settings = settings_of(asked);
-    asked.table = Table({{"level", point.unit},
-                         {"motions", ""},
-                         {"trips", ""},
-                         {"probability", ""},
-                         {"low", ""},
-                         {"high", ""},
-                         {"beyond", ""},
-                         {"half_cycles", ""},
-                         {"failed", ""}});
-    FigurePanel panel = panel_of("level of noise in " + point.name, point.unit, "probability of a trip", "");
-    FigureSeries shares = series_of(fmt::format("within {} cycles", settings.cycles), FigureSeries::Style::circles, 1),
-                 low = series_of(fmt::format("limits of confidence, {:g} %", 100 * settings.confidence),
-                                 FigureSeries::Style::line, 0),
-                 high = series_of("", FigureSeries::Style::line, 0),
-                 beyond = series_of("beyond the " + std::string(point.kind()) + " at any time",
-                                    FigureSeries::Style::dotted, 2);
+    asked.table = Table{{"level", point.unit}, {"motions", ""}, {"trips", ""},       {"probability", ""}, {"low", ""},
+                        {"high", ""},          {"beyond", ""},  {"half_cycles", ""}, {"failed", ""}};
     const std::vector<double> levels = numbers_by_decades(point.model(), asked.arguments.noises, "--noise");
     StatusLine line(asked.console, asked.console.terminal);
     const auto progress = [&](std::size_t level, std::size_t motions) {
@@ -217,21 +156,10 @@ void noise(AskedTrips& asked) {
                                               "{}; look at whether the parameter "
                                               "has a meaning as far as the noise takes it",
                                               count, trips.motions, level, ending));
-        asked.table.add(level);
-        asked.table.add(static_cast<double>(trips.motions));
-        asked.table.add(static_cast<double>(trips.trips));
-        for (const double one : {trips.probability.value, trips.probability.low, trips.probability.high, share,
-                                 trips.half.value_or(not_a_number), static_cast<double>(trips.failed)})
-            asked.table.add(one);
-        if (level == 0) // has no place on the axis
-            continue;
-        shares.points.push_back({level, trips.probability.value});
-        low.points.push_back({level, trips.probability.low});
-        high.points.push_back({level, trips.probability.high});
-        beyond.points.push_back({level, share});
+        asked.table.add(level, trips.motions, trips.trips, trips.probability.value, trips.probability.low,
+                        trips.probability.high, share, trips.half, trips.failed);
     }
-    panel.series = {shares, low, high, beyond};
-    asked.figure.panels.push_back(std::move(panel));
+    asked.figure = noise_figure(point, levels, all, settings);
 }
 
 JsonObject disturbed_heading(const ResultFile& file, const AskedTrips& asked) {

@@ -3,6 +3,7 @@
 #include "base/letter_case.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/xml_text.hpp"
+#include "graze/model/check.hpp"
 #include "graze/picture/fabrication_picture.hpp"
 #include "graze/picture/figure_script.hpp"
 #include "graze/picture/layout_picture.hpp"
@@ -167,6 +168,22 @@ void draw_fabrication(const std::vector<ProcessStep>& steps, const std::string& 
     draw_script(path, "--recipe", [&](const std::string& ending, const std::string& output) {
         return fabrication_picture_script(steps, ending, output);
     });
+}
+
+void draw_graph(const Model& model, const std::string& path) {
+    const std::string ending = picture_ending(path, "--graph", {"svg", "png", "pdf", "eps", "dot"});
+    const std::string graph = connectivity_graph(model);
+    if (ending == "dot")
+        return write_file(path, graph);
+    const std::string program =
+        require_drawing_program("dot", "install Graphviz (Debian: apt-get install graphviz), or ask for a .dot file");
+    FileReplacement file(path);
+    const ProcessResult result = run_process({program, "-T" + ending, "-o", file.temporary_path()}, graph);
+    if (result.status != 0)
+        throw InputError(fmt::format("Graphviz could not draw '{}': {}", path, one_line(result.output)),
+                         "ask for a .dot file and look at it");
+    require_well_formed_picture(file, ending, path);
+    file.commit();
 }
 
 } // namespace graze

@@ -2,6 +2,7 @@
 
 #include "graze/layout/layout.hpp"
 #include "graze/layout/process_steps.hpp"
+#include "graze/model/model.hpp"
 #include "graze/picture/figure.hpp"
 #include "graze/picture/wafer_map.hpp"
 #include "program/output_file.hpp"
@@ -45,5 +46,10 @@ void draw_layout(const Layout& layout, const std::string& path, std::optional<in
 void draw_wafer_map(const WaferYield& yield, const WaferPlan& plan, const WaferMapLabels& labels,
                     const std::string& path);
 void draw_fabrication(const std::vector<ProcessStep>& steps, const std::string& path);
+
+/// Draws the modes of a model and the transitions between them, in the format of the file's ending. Graphviz draws svg,
+/// png, pdf and eps; dot is the language of Graphviz and needs no program.
+/// @throws InputError for other endings, when Graphviz is missing, and when the file cannot be written
+void draw_graph(const Model& model, const std::string& path);
 
 } // namespace graze

@@ -1,4 +1,4 @@
-#include "program/drawn_design_report.hpp"
+#include "program/layout_outputs.hpp"
 
 #include "graze/base/input_error.hpp"
 #include "graze/design/design_folder.hpp"

@@ -1,10 +1,9 @@
-#include "program/fit_request.hpp"
+#include "program/identify_request.hpp"
 
 #include "graze/base/input_error.hpp"
 #include "graze/base/with_place.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/model/named_value.hpp"
-#include "program/identify_request.hpp"
 #include "program/record_request.hpp"
 #include "program/values.hpp"
 

@@ -24,9 +24,7 @@ class GrazingFacts {
 public:
     GrazingFacts() : table_({{"quantity", ""}, {"value", ""}, {"meaning", ""}}) {}
     void add(const std::string& name, double value, const std::string& meaning) {
-        table_.add(name);
-        table_.add(value);
-        table_.add(meaning);
+        table_.add(name, value, meaning);
         values_.add(name, value);
     }
     void add(const std::string& name, std::optional<double> value, const std::string& meaning) {
@@ -34,9 +32,7 @@ public:
             add(name, *value, meaning);
     }
     void add(const std::string& name, std::string_view value, const std::string& meaning) {
-        table_.add(name);
-        table_.add(value);
-        table_.add(meaning);
+        table_.add(name, value, meaning);
         values_.add(name, value);
     }
     const Table& table() const { return table_; }
@@ -183,14 +179,7 @@ void add_verdict(GrazingFacts& facts, const GrazingFindings& found) {
 }
 
 JsonObject grazing_heading(const ResultFile& file, const GrazingFindings& found, const GrazingFacts& facts) {
-    const OrbitRecord& record = found.stored.record;
-    JsonObject heading;
-    heading.add("graze", GRAZE_VERSION);
-    heading.add("file", file.path());
-    heading.add("model", found.stored.run.model.name);
-    heading.add("run", found.stored.run.record.name);
-    heading.add("number", static_cast<double>(record.number));
-    heading.add("label", record.label);
+    JsonObject heading = heading_of_point(file, found.stored);
     heading.add("reason", found.verdict.reason);
     heading.add("values", facts.values());
     std::vector<JsonObject> motions;

@@ -22,7 +22,8 @@ void write_pages(const CLI::App& app, const std::string& folder, const Console& 
 
 } // namespace
 
-int help_command(const CLI::App& app, const HelpArguments& arguments, const Console& console) {
+int help_command(const HelpArguments& arguments, const Console& console) {
+    const CLI::App& app = *arguments.app;
     if (!arguments.folder.empty()) {
         write_pages(app, arguments.folder, console);
         return exit_success;
@@ -32,8 +33,8 @@ int help_command(const CLI::App& app, const HelpArguments& arguments, const Cons
     return exit_success;
 }
 
-int completion_command(const CLI::App& app, const CompletionArguments& arguments, const Console& console) {
-    const std::string script = completion_script(app, arguments.shell);
+int completion_command(const CompletionArguments& arguments, const Console& console) {
+    const std::string script = completion_script(*arguments.app, arguments.shell);
     if (arguments.file.empty())
         console.out << script;
     else

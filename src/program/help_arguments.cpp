@@ -1,4 +1,4 @@
-#include "program/help_arguments.hpp"
+#include "program/command_line.hpp"
 
 #include "program/commands.hpp"
 
@@ -25,23 +25,16 @@ constexpr const char* completion_examples = R"(Examples:
 
 } // namespace
 
-void declare_help_commands(CLI::App& app, Arguments& arguments) {
-    CLI::App& help = *app.add_subcommand("help", help_text);
-    help.footer(help_examples);
-    arguments.commands["help"] = [&](const Console& console) { return help_command(app, arguments.help, console); };
-    help.add_option("COMMAND", arguments.help.command, "The command to explain (the program)")->type_name("");
-    help.add_flag("--man", arguments.help.man, "Print a manual page for man");
-    help.add_option("--write", arguments.help.folder, "Write the manual pages of all commands into this folder")
-        ->type_name("FOLDER");
-    CLI::App& completion = *app.add_subcommand("completion", completion_text);
-    completion.footer(completion_examples);
-    arguments.commands["completion"] = [&](const Console& console) {
-        return completion_command(app, arguments.completion, console);
-    };
-    completion.add_option("SHELL", arguments.completion.shell, "bash, zsh or fish")->type_name("")->required();
-    completion
-        .add_option("--output", arguments.completion.file, "Write the script to FILE instead of to standard output")
-        ->type_name("FILE");
+void declare_help_commands(CommandLine& line) {
+    auto [of_help, help] = line.command("help", help_text, help_examples, help_command);
+    help.app = &line.app;
+    of_help.add("[COMMAND]", help.command, "The command to explain (the program)");
+    of_help.add("--man", help.man, "Print a manual page for man");
+    of_help.add("--write FOLDER", help.folder, "Write the manual pages of all commands into this folder");
+    auto [options, completion] = line.command("completion", completion_text, completion_examples, completion_command);
+    completion.app = &line.app;
+    options.add("SHELL", completion.shell, "bash, zsh or fish");
+    options.add("--output FILE", completion.file, "Write the script to FILE instead of to standard output");
 }
 
 } // namespace graze

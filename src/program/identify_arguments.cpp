@@ -1,12 +1,7 @@
-#include "program/identify_arguments.hpp"
+#include "program/command_line.hpp"
 
 #include "graze/identify/fit.hpp"
 #include "program/commands.hpp"
-#include "program/declared_option.hpp"
-#include "program/record_arguments.hpp"
-
-#include <string>
-#include <vector>
 
 namespace graze {
 
@@ -32,94 +27,80 @@ constexpr const char* identify_examples = R"(Examples:
   graze simulate impact-oscillator --set @found.toml --from @found.toml --time 100
   graze identify testbed-experiment --format csv)";
 
-void declare_channels(CLI::App& command, IdentifyArguments& arguments) {
-    const char* group = "Channels";
-    declare_option(command, group, "--channel", arguments.channel, "NAME", "Decrement, restitution: the velocity (v)");
-    declare_option(
-        command, group, "--displacement", arguments.displacement, "NAME",
-        "Coupling: the displacement (q). Restitution: the displacement, whose kinks give the times of impacts");
-    declare_option(command, group, "--voltage", arguments.voltage, "NAME", "Impedance: the voltage (V)");
-    declare_option(command, group, "--current", arguments.current, "NAME", "Coupling, impedance: the current (I)");
-    declare_reading(command, arguments.reading);
+void declare_channels(CommandOptions& options, IdentifyArguments& identify) {
+    options.in("Channels");
+    options.add("--channel NAME", identify.request.channel, "Decrement, restitution: the velocity (v)");
+    options.add("--displacement NAME", identify.request.displacement,
+                "Coupling: the displacement (q). Restitution: the displacement, whose kinks give the times of impacts");
+    options.add("--voltage NAME", identify.request.voltage, "Impedance: the voltage (V)");
+    options.add("--current NAME", identify.request.current, "Coupling, impedance: the current (I)");
+    declare_reading(options, identify.reading);
 }
 
-void declare_known(CLI::App& command, IdentifyArguments& arguments) {
-    const char* group = "Each kind of estimate";
-    declare_option(command, group, "--peaks", arguments.peaks, "N",
-                   "Decrement: number of peaks that are used, the first of each record (10)")
-        ->check(whole_number(2, 100'000));
-    declare_option(command, group, "--window", arguments.impacts.window, "N",
-                   "Restitution: samples on each side of an impact to which velocities are fitted (12)")
-        ->check(whole_number(ImpactWindow::least_window, ImpactWindow::most_window));
-    declare_option(command, group, "--transition", arguments.impacts.transition, "N",
-                   "Restitution: samples on each side left out since the impact itself disturbs them (0)")
-        ->check(whole_number(0, ImpactWindow::most_window));
-    declare_option(command, group, "--least-jump", arguments.impacts.least_jump, "VALUE",
-                   "Restitution: smallest jump of the velocity that is an impact, in its unit (0)")
-        ->check(non_negative_number());
-    declare_option(command, group, "--gap", arguments.gap, "D",
-                   "Coupling, impedance: gap at rest, in the unit of the displacement")
-        ->check(positive_number());
-    declare_option(command, group, "--stiffness", arguments.stiffness, "K",
-                   "Coupling: stiffness, the mass times the square of the natural frequency")
-        ->check(positive_number());
-    declare_option(command, group, "--gap-error", arguments.gap_error, "D", "Coupling: standard error of the gap (0)")
-        ->check(non_negative_number());
-    declare_option(command, group, "--stiffness-error", arguments.stiffness_error, "K",
-                   "Coupling: standard error of the stiffness (0)")
-        ->check(non_negative_number());
-    declare_option(command, group, "--noise", arguments.noise, "Q,I",
-                   "Coupling: noise of displacement and current; only its ratio matters (that of their largest values)")
+void declare_known(CommandOptions& options, IdentifyArguments& identify) {
+    options.in("Each kind of estimate");
+    options.add("--peaks N", identify.request.peaks,
+                "Decrement: number of peaks that are used, the first of each record (10)", whole_number(2, 100'000));
+    options.add("--window N", identify.request.impacts.window,
+                "Restitution: samples on each side of an impact to which velocities are fitted (12)",
+                whole_number(ImpactWindow::least_window, ImpactWindow::most_window));
+    options.add("--transition N", identify.request.impacts.transition,
+                "Restitution: samples on each side left out since the impact itself disturbs them (0)",
+                whole_number(0, ImpactWindow::most_window));
+    options.add("--least-jump VALUE", identify.request.impacts.least_jump,
+                "Restitution: smallest jump of the velocity that is an impact, in its unit (0)", non_negative_number());
+    options.add("--gap D", identify.request.gap, "Coupling, impedance: gap at rest, in the unit of the displacement",
+                positive_number());
+    options.add("--stiffness K", identify.request.stiffness,
+                "Coupling: stiffness, the mass times the square of the natural frequency", positive_number());
+    options.add("--gap-error D", identify.request.gap_error, "Coupling: standard error of the gap (0)",
+                non_negative_number());
+    options.add("--stiffness-error K", identify.request.stiffness_error,
+                "Coupling: standard error of the stiffness (0)", non_negative_number());
+    options
+        .add("--noise Q,I", identify.noise,
+             "Coupling: noise of displacement and current; only its ratio matters (that of their largest values)")
         ->delimiter(',')
         ->expected(2);
-    declare_option(command, group, "--frequency", arguments.frequency, "F",
-                   "Impedance: approximate frequency of the voltage (that of its largest spectral line)")
-        ->check(positive_number());
-    declare_option(command, group, "--beta1", arguments.beta1, "VALUE[+-ERROR]",
-                   "Impedance: with --beta2 and --gap gives the leakage inductance too, L - beta1/(beta2 + gap - q)");
-    declare_option(command, group, "--beta2", arguments.beta2, "VALUE[+-ERROR]", "Impedance: see --beta1");
-    declare_option(command, group, "--clamped", arguments.clamped, "Q",
-                   "Impedance: displacement q at which the mass is clamped (0)");
+    options.add("--frequency F", identify.request.frequency,
+                "Impedance: approximate frequency of the voltage (that of its largest spectral line)",
+                positive_number());
+    options.add("--beta1 VALUE[+-ERROR]", identify.beta1,
+                "Impedance: with --beta2 and --gap gives the leakage inductance too, L - beta1/(beta2 + gap - q)");
+    options.add("--beta2 VALUE[+-ERROR]", identify.beta2, "Impedance: see --beta1");
+    options.add("--clamped Q", identify.request.clamped, "Impedance: displacement q at which the mass is clamped (0)",
+                finite_number());
 }
 
-void declare_fit(CLI::App& command, IdentifyArguments& arguments) {
-    const char* group = "Fit";
-    declare_option(command, group, "--free", arguments.free, "NAME[=GUESS][:LEAST:GREATEST]",
-                   "Parameters to be found, with guesses (the model's values) and bounds (none)");
-    declare_option(command, group, "--set", arguments.set, "NAME=VALUE", "Values of other parameters");
-    declare_option(command, group, "--with", arguments.own, "FILE:NAME=VALUE",
-                   "Values of parameters in one record only, if records were taken under different conditions");
-    declare_option(command, group, "--start", arguments.start, "STATE=VALUE",
-                   "Guesses of the states at the first time (from the readings, or the model)");
-    declare_option(
-        command, group, "--known", arguments.known, "STATE,...",
-        "States whose initial values are known, by --start or the model, and not fitted; `all`: every state");
-    declare_option(command, group, "--mode", arguments.mode, "MODE",
-                   "Mode at the first time (the model's initial mode)");
-    declare_option(command, group, "--reading", arguments.meanings, "CHANNEL=EXPRESSION",
-                   "Quantity that a channel measures (the state or quantity of its name; other channels are not used)");
-    declare_option(command, group, "--gain", arguments.gains, "CHANNEL[=GUESS]",
-                   "Channels whose gain is fitted too, with a guess (1)");
-    declare_option(command, group, "--offset", arguments.offsets, "CHANNEL[=GUESS]",
-                   "Channels whose offset is fitted too, with a guess (0)");
-    declare_option(command, group, "--deviation", arguments.noises, "CHANNEL=VALUE",
-                   "Standard deviation of a channel's noise (estimated from the residuals)");
-    declare_option(command, group, "--loss", arguments.loss, "LOSS",
-                   "Loss function: squares (default); huber or cauchy if there are outliers")
-        ->check(one_of(names_of_losses()));
-    declare_option(command, group, "--piece", arguments.piece, "T",
-                   "Length in time of the pieces into which records are cut (about thirty readings); shorter ones help "
-                   "a fit with poor guesses");
-    declare_option(command, group, "--time-limit", arguments.time_limit, "S",
-                   "End after S seconds and report what does not match (no limit)")
-        ->check(positive_number());
-    command.add_flag("--progress", arguments.progress, "Show progress even if standard error is no terminal")
-        ->group(group);
-    declare_option(command, group, "--table", arguments.table, "TABLE",
-                   "numbers (default), outputs, correlations or readings")
-        ->check(one_of(fit_table_names()));
-    declare_option(command, group, "--save", arguments.save, "FILE",
-                   "Write the fitted values to FILE, for --set @FILE and --from @FILE");
+void declare_fit(CommandOptions& options, IdentifyArguments& identify) {
+    options.in("Fit");
+    options.add("--free NAME[=GUESS][:LEAST:GREATEST]", identify.free,
+                "Parameters to be found, with guesses (the model's values) and bounds (none)");
+    options.add("--set NAME=VALUE", identify.set, "Values of other parameters");
+    options.add("--with FILE:NAME=VALUE", identify.own,
+                "Values of parameters in one record only, if records were taken under different conditions");
+    options.add("--start STATE=VALUE", identify.start,
+                "Guesses of the states at the first time (from the readings, or the model)");
+    options.add("--known STATE,...", identify.known,
+                "States whose initial values are known, by --start or the model, and not fitted; `all`: every state");
+    options.add("--mode MODE", identify.mode, "Mode at the first time (the model's initial mode)");
+    options.add("--reading CHANNEL=EXPRESSION", identify.meanings,
+                "Quantity that a channel measures (the state or quantity of its name; other channels are not used)");
+    options.add("--gain CHANNEL[=GUESS]", identify.gains, "Channels whose gain is fitted too, with a guess (1)");
+    options.add("--offset CHANNEL[=GUESS]", identify.offsets, "Channels whose offset is fitted too, with a guess (0)");
+    options.add("--deviation CHANNEL=VALUE", identify.noises,
+                "Standard deviation of a channel's noise (estimated from the residuals)");
+    options.add("--loss LOSS", identify.loss, "Loss function: squares (default); huber or cauchy if there are outliers",
+                one_of(names_of_losses()));
+    options.add("--piece T", identify.piece,
+                "Length in time of the pieces into which records are cut (about thirty readings); shorter ones help "
+                "a fit with poor guesses");
+    options.add("--time-limit S", identify.time_limit, "End after S seconds and report what does not match (no limit)",
+                positive_number());
+    options.add("--progress", identify.progress, "Show progress even if standard error is no terminal");
+    options.add("--table TABLE", identify.table, "numbers (default), outputs, correlations or readings",
+                one_of(fit_table_names()));
+    options.add("--save FILE", identify.save, "Write the fitted values to FILE, for --set @FILE and --from @FILE");
 }
 
 } // namespace
@@ -128,24 +109,16 @@ std::vector<std::string> fit_table_names() {
     return {"numbers", "outputs", "correlations", "readings"};
 }
 
-void declare_identify_command(CLI::App& app, Arguments& all) {
-    IdentifyArguments& arguments = all.identify;
-    CLI::App& command = *app.add_subcommand("identify", identify_text);
-    command.footer(identify_examples);
-    all.add_command("identify", identify_command, all.identify);
-    command
-        .add_option("WHAT", arguments.what,
-                    "decrement, restitution, coupling, impedance or fit; or a study, without FILE")
-        ->type_name("")
-        ->required();
-    command.add_option("FILE", arguments.reading.files, "Records; for a fit the model comes first")->type_name("");
-    declare_channels(command, arguments);
-    declare_known(command, arguments);
-    declare_fit(command, arguments);
-    declare_table(command, arguments.reading.output);
-    declare_option(command, "Picture", "--plot", arguments.reading.plot, "FILE",
-                   "Draw the fit and its residuals too, as svg, png or pdf");
-    declare_data(command, arguments.reading.data);
+void declare_identify_command(CommandLine& line) {
+    auto [options, identify] = line.command("identify", identify_text, identify_examples, identify_command);
+    options.add("WHAT", identify.what, "decrement, restitution, coupling, impedance or fit; or a study, without FILE");
+    options.add("[FILE]", identify.reading.files, "Records; for a fit the model comes first");
+    declare_channels(options, identify);
+    declare_known(options, identify);
+    declare_fit(options, identify);
+    options.table(identify.reading.output);
+    options.picture(identify.reading.plot, identify.reading.data,
+                    "Draw the fit and its residuals too, as svg, png or pdf");
 }
 
 } // namespace graze

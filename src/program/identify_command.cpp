@@ -3,12 +3,11 @@
 #include "graze/picture/figure_script.hpp"
 #include "graze/picture/residual_figure.hpp"
 #include "graze/study/identify_records.hpp"
+#include "program/command_line.hpp"
 #include "program/commands.hpp"
 #include "program/drawing.hpp"
-#include "program/identify_arguments.hpp"
-#include "program/identify_fit.hpp"
 #include "program/identify_request.hpp"
-#include "program/identify_study.hpp"
+#include "program/option_words.hpp"
 
 #include <fmt/format.h>
 
@@ -33,13 +32,10 @@ int identify_command(const IdentifyArguments& arguments, const Console& console)
     for (const Identification::Value& value : found.values) {
         const Estimate& estimate = value.estimate;
         const bool known = estimate.freedom > 0;
-        table.add(value.name);
-        table.add(value.unit);
-        table.add(estimate.value);
-        table.add(known ? estimate.error : not_a_number);
-        table.add(known ? estimate.value - estimate.half_width() : not_a_number);
-        table.add(known ? estimate.value + estimate.half_width() : not_a_number);
-        table.add(known ? estimate.freedom : not_a_number);
+        table.add(value.name, value.unit, estimate.value, known ? estimate.error : not_a_number,
+                  known ? estimate.value - estimate.half_width() : not_a_number,
+                  known ? estimate.value + estimate.half_width() : not_a_number,
+                  known ? estimate.freedom : not_a_number);
     }
     JsonObject heading;
     heading.add("graze", GRAZE_VERSION);
@@ -49,7 +45,7 @@ int identify_command(const IdentifyArguments& arguments, const Console& console)
         draw_figure(residual_figure(found), plot, arguments.reading.data);
     deliver(table, arguments.reading.output, heading, console);
     for (const std::string& warning : found.warnings)
-        console.err << fmt::format("graze: warning: {}\n", warning);
+        console.err << fmt::format("graze: warning: {}\n", in_options(warning));
     return found.warnings.empty() ? exit_success : exit_irregular;
 }
 

@@ -1,5 +1,5 @@
-#include "program/identify_fit.hpp"
 #include "base/special_numbers.hpp"
+#include "program/commands.hpp"
 #include "program/drawing.hpp"
 
 #include "graze/base/input_error.hpp"
@@ -7,8 +7,7 @@
 #include "graze/model/parameter_file.hpp"
 #include "graze/picture/figure.hpp"
 #include "graze/picture/figure_script.hpp"
-#include "program/commands.hpp"
-#include "program/fit_request.hpp"
+#include "program/identify_request.hpp"
 #include "program/interrupt.hpp"
 #include "program/output_file.hpp"
 #include "program/status_line.hpp"
@@ -28,37 +27,25 @@ Table numbers_table(const Fit& fit) {
     for (const FittedNumber& number : fit.numbers) {
         const Estimate& estimate = number.estimate;
         const bool known = estimate.freedom > 0;
-        table.add(number.name);
-        table.add(number.unit);
-        table.add(estimate.value);
-        table.add(known ? estimate.error : not_a_number);
-        table.add(known ? estimate.value - estimate.half_width() : not_a_number);
-        table.add(known ? estimate.value + estimate.half_width() : not_a_number);
-        table.add(std::string(number.at_bound ? "at its bound" : known ? "" : "not determined"));
+        table.add(number.name, number.unit, estimate.value, known ? estimate.error : not_a_number,
+                  known ? estimate.value - estimate.half_width() : not_a_number,
+                  known ? estimate.value + estimate.half_width() : not_a_number,
+                  number.at_bound ? "at its bound"
+                  : known         ? ""
+                                  : "not determined");
     }
     return table;
 }
 
 Table outputs_table(const FitOfRecords& found) {
     const Fit& fit = found.fit;
-    Table table({{"output", ""},
-                 {"unit", ""},
-                 {"readings", ""},
-                 {"deviation", ""},
-                 {"share", ""},
-                 {"chi_square", ""},
-                 {"correlation", ""},
-                 {"outliers", ""}});
+    Table table{{"output", ""}, {"unit", ""},       {"readings", ""},    {"deviation", ""},
+                {"share", ""},  {"chi_square", ""}, {"correlation", ""}, {"outliers", ""}};
     for (std::size_t o = 0; o < fit.outputs.size(); ++o) {
         const FittedOutput& output = fit.outputs[o];
-        table.add(output.name);
-        table.add(found.channels[o].unit);
-        table.add(static_cast<double>(output.readings));
-        table.add(output.deviation);
-        table.add(output.share);
-        table.add(found.task.outputs[o].noise > 0 ? output.chi_square : not_a_number);
-        table.add(output.correlation);
-        table.add(static_cast<double>(output.outliers));
+        table.add(output.name, found.channels[o].unit, output.readings, output.deviation, output.share,
+                  found.task.outputs[o].noise > 0 ? output.chi_square : not_a_number, output.correlation,
+                  output.outliers);
     }
     return table;
 }
@@ -88,8 +75,7 @@ Table readings_table(const FitOfRecords& found, const Channel& time) {
     for (std::size_t r = 0; r < found.task.records.size(); ++r) {
         const FitRecord& record = found.task.records[r];
         for (std::size_t i = 0; i < record.times.size(); ++i) {
-            table.add(static_cast<double>(r + 1));
-            table.add(record.times[i]);
+            table.add(r + 1, record.times[i]);
             for (std::size_t o = 0; o < found.channels.size(); ++o) {
                 double read = not_a_number, fitted = not_a_number;
                 for (std::size_t c = 0; c < record.readings.size(); ++c)
@@ -97,8 +83,7 @@ Table readings_table(const FitOfRecords& found, const Channel& time) {
                         read = record.readings[c].values[i];
                         fitted = found.fit.records[r].fitted[c][i];
                     }
-                table.add(read);
-                table.add(fitted);
+                table.add(read, fitted);
             }
         }
     }

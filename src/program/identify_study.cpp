@@ -1,11 +1,10 @@
-#include "program/identify_study.hpp"
+#include "program/commands.hpp"
 
 #include "graze/base/input_error.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/study/study_catalogue.hpp"
-#include "program/commands.hpp"
-#include "program/identify_arguments.hpp"
+#include "program/command_line.hpp"
 #include "program/kept_inputs.hpp"
 
 #include <fmt/format.h>

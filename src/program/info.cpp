@@ -247,9 +247,7 @@ std::string text_of_fact(const Facts& facts, bool all, std::size_t width) {
 Table info_table(const Facts& facts) {
     Table table({{"item", ""}, {"name", ""}, {"property", ""}, {"value", ""}, {"unit", ""}});
     for (const Fact& fact : facts.all()) {
-        table.add(fact.item);
-        table.add(fact.name);
-        table.add(fact.property);
+        table.add(fact.item, fact.name, fact.property);
         if (fact.number)
             table.add(*fact.number);
         else

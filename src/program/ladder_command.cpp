@@ -18,27 +18,20 @@ Table ladder_table(const StoredLadder& found, const std::string& parameter, cons
     const std::vector<SpecialPoint>& grazings = found.ladder.grazings();
     const auto& leaving = found.leaving;
     for (std::size_t k = 0; k < grazings.size(); ++k) {
-        table.add(static_cast<double>(k + 1));
-        table.add(grazings[k].parameter);
+        table.add(k + 1, grazings[k].parameter);
         const bool has_ratio = k + 2 < grazings.size();
         table.add(has_ratio ? (grazings[k + 2].parameter - grazings[k + 1].parameter) /
                                   (grazings[k + 1].parameter - grazings[k].parameter)
-                            : not_a_number);
-        table.add(k < leaving.size() ? leaving[k].flip.value_or(not_a_number) : not_a_number);
-        table.add(k < leaving.size() ? leaving[k].fold.value_or(not_a_number) : not_a_number);
+                            : not_a_number,
+                  k < leaving.size() ? leaving[k].flip.value_or(not_a_number) : not_a_number,
+                  k < leaving.size() ? leaving[k].fold.value_or(not_a_number) : not_a_number);
     }
     return table;
 }
 
 JsonObject ladder_heading(const ResultFile& file, const StoredLadder& found) {
     const auto& [stored, parameter, ladder, leaving, limit, interrupted] = found;
-    JsonObject heading;
-    heading.add("graze", GRAZE_VERSION);
-    heading.add("file", file.path());
-    heading.add("model", stored.run.model.name);
-    heading.add("run", stored.run.record.name);
-    heading.add("number", static_cast<double>(stored.record.number));
-    heading.add("label", stored.record.label);
+    JsonObject heading = heading_of_point(file, stored);
     heading.add("ends", ladder.why());
     if (limit.direct) {
         heading.add("limit", limit.direct->first);

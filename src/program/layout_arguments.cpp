@@ -1,7 +1,6 @@
-#include "program/layout_arguments.hpp"
+#include "program/command_line.hpp"
 
 #include "program/commands.hpp"
-#include "program/declared_option.hpp"
 
 namespace graze {
 
@@ -26,50 +25,39 @@ constexpr const char* layout_examples = R"(Examples:
 
 } // namespace
 
-void declare_layout_command(CLI::App& app, Arguments& arguments) {
-    LayoutArguments& layout = arguments.layout;
-    CLI::App& command = *app.add_subcommand("layout", layout_text);
-    command.footer(layout_examples);
-    arguments.add_command("layout", layout_command, arguments.layout);
-    command.add_option("DESIGN", layout.design, "Name of a shipped design, or a file")->type_name("")->required();
-    declare_option(command, "What is drawn", "--set", layout.set, "NAME=VALUE",
-                   "Replace a number of [device], in micrometres, or of [process], in its unit; repeat for several");
-    command.add_flag("--wafer", layout.wafer, "Draw the wafer with all its devices, instead of one device")
-        ->group("What is drawn");
-    declare_option(command, "What is drawn", "--mask", layout.mask, "N", "Draw only mask 1 (mirrored) or 2 (both)")
-        ->check(whole_number(1, 2));
-    declare_option(
-        command, "What is drawn", "--from-design", layout.from_design, "FOUND",
+void declare_layout_command(CommandLine& line) {
+    auto [options, layout] = line.command("layout", layout_text, layout_examples, layout_command);
+    options.add("DESIGN", layout.design, "Name of a shipped design, or a file");
+    options.in("What is drawn");
+    options.add("--set NAME=VALUE", layout.set,
+                "Replace a number of [device], in micrometres, or of [process], in its unit; repeat for several");
+    options.add("--wafer", layout.wafer, "Draw the wafer with all its devices, instead of one device");
+    options.add("--mask N", layout.mask, "Draw only mask 1 (mirrored) or 2 (both)", whole_number(1, 2));
+    options.add(
+        "--from-design FOUND", layout.from_design,
         "Draw the device found by 'graze design DESIGN --output FOUND', corrected for the etch; print its trip value");
-    declare_option(command, "Where results go", "--output", layout.file, "FILE",
-                   "Write the drawing as GDSII (.gds), or a picture as --picture does");
-    declare_option(command, "Where results go", "--picture", layout.picture, "FILE",
-                   "Draw a picture (.svg, .png or .pdf)");
-    declare_option(command, "Where results go", "--parameters", layout.parameters, "FILE",
-                   "Write mass, frequency, damping, area and gaps of the etched device, for --set @FILE");
-    declare_option(command, "Where results go", "--verilog-a", layout.verilog, "FILE",
-                   "Write the etched device as a module of Verilog-A for circuit simulators (.va)");
-    declare_option(
-        command, "Where results go", "--recipe", layout.recipe, "FILE",
+    options.in("Where results go");
+    options.add("--output FILE", layout.file, "Write the drawing as GDSII (.gds), or a picture as --picture does");
+    options.add("--picture FILE", layout.picture, "Draw a picture (.svg, .png or .pdf)");
+    options.add("--parameters FILE", layout.parameters,
+                "Write mass, frequency, damping, area and gaps of the etched device, for --set @FILE");
+    options.add("--verilog-a FILE", layout.verilog,
+                "Write the etched device as a module of Verilog-A for circuit simulators (.va)");
+    options.add(
+        "--recipe FILE", layout.recipe,
         "Write the process recipe, step by step (.md), or draw cross-sections after each step (.svg, .png or .pdf)");
-    declare_option(
-        command, "Where results go", "--markers", layout.markers, "FILE",
-        "Write the places that break a rule as markers of KLayout (.lyrdb), even if no other file is written");
-    command.add_flag("--despite-rules", layout.despite_rules, "Write files although a rule of [rules] is broken")
-        ->group("Where results go");
-    const char* group = "Wafers of devices";
-    declare_option(
-        command, group, "--yield", layout.yield, "N",
-        "Simulate N wafers with the variations of [spread]; tables and a map of the trip points go to a folder")
-        ->check(whole_number(1, 100'000));
-    declare_option(command, group, "--folder", layout.folder, "FOLDER",
-                   "Folder of the wafers' tables, created if necessary (the design's name and -wafers)");
-    declare_option(command, group, "--seed", layout.seed, "N", "Seed of the random numbers (1)")
-        ->check(whole_number(0, 1'000'000'000));
-    declare_option(command, group, "--jobs", layout.jobs, "N",
-                   "Number of threads (one for each core); results do not depend on it")
-        ->check(whole_number(1, 1024));
-    declare_digits(command, layout.output);
+    options.add("--markers FILE", layout.markers,
+                "Write the places that break a rule as markers of KLayout (.lyrdb), even if no other file is written");
+    options.add("--despite-rules", layout.despite_rules, "Write files although a rule of [rules] is broken");
+    options.in("Wafers of devices");
+    options.add("--yield N", layout.yield,
+                "Simulate N wafers with the variations of [spread]; tables and a map of the trip points go to a folder",
+                whole_number(1, 100'000));
+    options.add("--folder FOLDER", layout.folder,
+                "Folder of the wafers' tables, created if necessary (the design's name and -wafers)");
+    options.seed(layout.seed, "Seed of the random numbers (1)");
+    options.jobs(layout.jobs);
+    options.digits(layout.output);
 }
 
 } // namespace graze

@@ -9,9 +9,7 @@
 #include "graze/picture/layout_picture.hpp"
 #include "program/commands.hpp"
 #include "program/drawing.hpp"
-#include "program/drawn_design_report.hpp"
-#include "program/layout_model.hpp"
-#include "program/layout_yield.hpp"
+#include "program/layout_outputs.hpp"
 #include "program/output_file.hpp"
 #include "program/values.hpp"
 
@@ -25,10 +23,7 @@ namespace graze {
 namespace {
 
 void add_row(Table& table, const std::string& cell, const std::string& what, double value, const char* unit) {
-    table.add(cell);
-    table.add(what);
-    table.add(value);
-    table.add(unit);
+    table.add(cell, what, value, unit);
 }
 
 void add_measures(Table& table, const DrawnDevice& device, const DeviceFile& file) {

@@ -1,4 +1,4 @@
-#include "program/layout_model.hpp"
+#include "program/layout_outputs.hpp"
 
 #include "graze/base/input_error.hpp"
 #include "graze/layout/lumped_model.hpp"

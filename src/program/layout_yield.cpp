@@ -1,4 +1,4 @@
-#include "program/layout_yield.hpp"
+#include "program/layout_outputs.hpp"
 
 #include "graze/base/input_error.hpp"
 #include "graze/base/with_place.hpp"

@@ -1,9 +1,8 @@
-#include "program/listed_studies.hpp"
+#include "program/commands.hpp"
 
 #include "base/special_numbers.hpp"
 #include "graze/study/study_catalogue.hpp"
 #include "graze/study/study_keys.hpp"
-#include "program/commands.hpp"
 #include "program/table.hpp"
 #include "program/wrapped_text.hpp"
 
@@ -15,9 +14,7 @@ int list_studies(const RunArguments& arguments, const Console& console) {
     Table table({{"study", ""}, {"runs", ""}, {"what it does", ""}});
     for (const std::string& name : shipped_studies()) {
         const Study study = load_study(name);
-        table.add(name);
-        table.add(static_cast<double>(study.runs.size()));
-        table.add(study.text);
+        table.add(name, study.runs.size(), study.text);
     }
     deliver(table, arguments.output, {}, console);
     return exit_success;
@@ -63,13 +60,8 @@ int list_study_keys(const RunArguments& arguments, const Console& console) {
         if (for_people)
             console.out << keys_in_words(kind, keys);
         for (const StudyKey& key : keys) {
-            table.add(kind);
-            table.add(key.name);
-            table.add(key.words.empty() ? key.type : fmt::format("{}", fmt::join(key.words, ", ")));
-            table.add(key.standard);
-            table.add(key.least.value_or(not_a_number));
-            table.add(key.most.value_or(not_a_number));
-            table.add(key.meaning);
+            table.add(kind, key.name, key.words.empty() ? key.type : fmt::format("{}", fmt::join(key.words, ", ")),
+                      key.standard, key.least, key.most, key.meaning);
         }
     }
     if (!for_people)

@@ -47,8 +47,7 @@ std::string file_text(const ModelsArguments& arguments) {
 void list(const ModelsArguments& arguments, const Console& console) {
     Table table({{"name", ""}, {"summary", ""}});
     for (const CatalogueEntry& entry : catalogue()) {
-        table.add(entry.name);
-        table.add(entry.summary);
+        table.add(entry.name, entry.summary);
     }
     deliver(table, arguments.output, {}, console);
 }

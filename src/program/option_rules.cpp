@@ -2,7 +2,7 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/study/identify_request.hpp"
-#include "program/identify_arguments.hpp"
+#include "program/command_line.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -26,19 +26,19 @@ struct Excludes {
     const char* remedy;
 };
 
-/// An option that has an effect only together with one of the others.
+/// Options that have an effect only together with one of the others.
 struct Needs {
     const char* command;
-    const char* option;
+    Names options;
     Names others;
 };
 
-/// An option that has an effect only when another option has one of these values, or is not given.
+/// Options that have an effect only when another option has one of these values, or is not given.
 struct NeedsValue {
     const char* command;
-    const char* option;
     const char* other;
     Names values;
+    Names options;
     const char* unless = nullptr; ///< the rule does not apply when this option is given
 };
 
@@ -107,92 +107,51 @@ const std::vector<Excludes>& exclusions() {
 
 const std::vector<Needs>& needs() {
     static const std::vector<Needs> all{
-        {"layout", "--mask", {"--picture", "--output"}},
-        {"layout", "--folder", {"--yield"}},
-        {"layout", "--seed", {"--yield"}},
-        {"layout", "--jobs", {"--yield", "--from-design"}},
-        {"orbit", "--data", {"--plot"}},
-        {"trip", "--data", {"--plot"}},
-        {"record", "--data", {"--plot"}},
-        {"identify", "--data", {"--plot"}},
-        {"bench", "--bits", {"--range"}},
-        {"bench", "--break-for", {"--break-after"}},
-        {"acquire", "--reference", {"--live"}},
-        {"acquire", "--phase", {"--live"}},
-        {"acquire", "--channel", {"--live"}},
-        {"record", "--level", {"--what"}},
-        {"record", "--hysteresis", {"--what"}},
-        {"record", "--reference", {"--what"}},
-        {"record", "--phase", {"--what"}},
-        {"record", "--negate", {"--what"}},
-        {"record", "--displacement", {"--what"}},
-        {"record", "--window", {"--what"}},
-        {"record", "--transition", {"--what"}},
-        {"record", "--least-jump", {"--what"}},
-        {"record", "--part", {"--what"}},
-        {"simulate", "--event", {"--contact-table", "--contacts", "--minima", "--table", "--plot"}},
+        {"layout", {"--mask"}, {"--picture", "--output"}},
+        {"layout", {"--folder", "--seed"}, {"--yield"}},
+        {"layout", {"--jobs"}, {"--yield", "--from-design"}},
+        {"orbit", {"--data"}, {"--plot"}},
+        {"trip", {"--data"}, {"--plot"}},
+        {"record", {"--data"}, {"--plot"}},
+        {"identify", {"--data"}, {"--plot"}},
+        {"bench", {"--bits"}, {"--range"}},
+        {"bench", {"--break-for"}, {"--break-after"}},
+        {"acquire", {"--reference", "--phase", "--channel"}, {"--live"}},
+        {"record",
+         {"--level", "--hysteresis", "--reference", "--phase", "--negate", "--displacement", "--window", "--transition",
+          "--least-jump", "--part"},
+         {"--what"}},
+        {"simulate", {"--event"}, {"--contact-table", "--contacts", "--minima", "--table", "--plot"}},
     };
     return all;
 }
 
 const std::vector<NeedsValue>& needs_of_values() {
     static const std::vector<NeedsValue> all{
-        {"plot", "--fit", "--kind", {"regression"}},
-        {"plot", "--group", "--kind", {"regression"}},
-        {"plot", "--successive", "--kind", {"regression"}},
-        {"plot", "--at", "--kind", {"history", "portrait", "poincare", "spectrum"}},
-        {"plot", "--point", "--kind", {"history", "portrait"}},
-        {"record", "--level", "--what", {"periods", "sections", "extremes"}},
-        {"record", "--hysteresis", "--what", {"periods", "sections", "extremes"}},
-        {"record", "--reference", "--what", {"periods", "sections", "extremes"}},
-        {"record", "--phase", "--what", {"sections"}},
-        {"record", "--negate", "--what", {"sections"}},
-        {"record", "--displacement", "--what", {"impacts"}},
-        {"record", "--window", "--what", {"impacts"}},
-        {"record", "--transition", "--what", {"impacts"}},
-        {"record", "--least-jump", "--what", {"impacts"}},
-        {"record", "--part", "--what", {"spectrum"}},
-        {"identify", "--channel", "WHAT", {"decrement", "restitution"}},
-        {"identify", "--displacement", "WHAT", {"restitution", "coupling"}},
-        {"identify", "--voltage", "WHAT", {"impedance"}},
-        {"identify", "--current", "WHAT", {"coupling", "impedance"}},
-        {"identify", "--peaks", "WHAT", {"decrement"}},
-        {"identify", "--window", "WHAT", {"restitution"}},
-        {"identify", "--transition", "WHAT", {"restitution"}},
-        {"identify", "--least-jump", "WHAT", {"restitution"}},
-        {"identify", "--gap", "WHAT", {"coupling", "impedance"}},
-        {"identify", "--stiffness", "WHAT", {"coupling"}},
-        {"identify", "--gap-error", "WHAT", {"coupling"}},
-        {"identify", "--stiffness-error", "WHAT", {"coupling"}},
-        {"identify", "--noise", "WHAT", {"coupling"}},
-        {"identify", "--frequency", "WHAT", {"impedance"}},
-        {"identify", "--beta1", "WHAT", {"impedance"}},
-        {"identify", "--beta2", "WHAT", {"impedance"}},
-        {"identify", "--clamped", "WHAT", {"impedance"}},
-        {"identify", "--free", "WHAT", {"fit"}},
-        {"identify", "--set", "WHAT", {"fit"}},
-        {"identify", "--with", "WHAT", {"fit"}},
-        {"identify", "--start", "WHAT", {"fit"}},
-        {"identify", "--known", "WHAT", {"fit"}},
-        {"identify", "--mode", "WHAT", {"fit"}},
-        {"identify", "--reading", "WHAT", {"fit"}},
-        {"identify", "--gain", "WHAT", {"fit"}},
-        {"identify", "--offset", "WHAT", {"fit"}},
-        {"identify", "--deviation", "WHAT", {"fit"}},
-        {"identify", "--loss", "WHAT", {"fit"}},
-        {"identify", "--piece", "WHAT", {"fit"}},
-        {"identify", "--table", "WHAT", {"fit"}},
-        {"identify", "--save", "WHAT", {"fit"}},
-        {"identify", "--columns", "WHAT", kinds_of_estimates()},
-        {"identify", "--group", "WHAT", kinds_of_estimates()},
-        {"identify", "--scale", "WHAT", kinds_of_estimates()},
-        {"identify", "--from", "WHAT", kinds_of_estimates()},
-        {"identify", "--to", "WHAT", kinds_of_estimates()},
-        {"identify", "--plot", "WHAT", kinds_of_estimates()},
-        {"simulate", "--samples", "--table", {"samples"}},
-        {"simulate", "--every", "--table", {"samples"}},
-        {"simulate", "--derivatives", "--table", {"derivatives"}},
-        {"simulate", "--event", "--table", {"contacts", "minima", "summary"}, "--contacts"},
+        {"plot", "--kind", {"regression"}, {"--fit", "--group", "--successive"}},
+        {"plot", "--kind", {"history", "portrait", "poincare", "spectrum"}, {"--at"}},
+        {"plot", "--kind", {"history", "portrait"}, {"--point"}},
+        {"record", "--what", {"periods", "sections", "extremes"}, {"--level", "--hysteresis", "--reference"}},
+        {"record", "--what", {"sections"}, {"--phase", "--negate"}},
+        {"record", "--what", {"impacts"}, {"--displacement", "--window", "--transition", "--least-jump"}},
+        {"record", "--what", {"spectrum"}, {"--part"}},
+        {"identify", "WHAT", {"decrement", "restitution"}, {"--channel"}},
+        {"identify", "WHAT", {"restitution", "coupling"}, {"--displacement"}},
+        {"identify", "WHAT", {"coupling", "impedance"}, {"--current"}},
+        {"identify", "WHAT", {"decrement"}, {"--peaks"}},
+        {"identify", "WHAT", {"restitution"}, {"--window", "--transition", "--least-jump"}},
+        {"identify", "WHAT", {"coupling", "impedance"}, {"--gap"}},
+        {"identify", "WHAT", {"coupling"}, {"--stiffness", "--gap-error", "--stiffness-error", "--noise"}},
+        {"identify", "WHAT", {"impedance"}, {"--voltage", "--frequency", "--beta1", "--beta2", "--clamped"}},
+        {"identify",
+         "WHAT",
+         {"fit"},
+         {"--free", "--set", "--with", "--start", "--known", "--mode", "--reading", "--gain", "--offset", "--deviation",
+          "--loss", "--piece", "--table", "--save"}},
+        {"identify", "WHAT", kinds_of_estimates(), {"--columns", "--group", "--scale", "--from", "--to", "--plot"}},
+        {"simulate", "--table", {"samples"}, {"--samples", "--every"}},
+        {"simulate", "--table", {"derivatives"}, {"--derivatives"}},
+        {"simulate", "--table", {"contacts", "minima", "summary"}, {"--event"}, "--contacts"},
     };
     return all;
 }
@@ -241,20 +200,25 @@ void refuse_useless_options(const CLI::App& app) {
                         other, fmt::format("{}{}{}", rule.option, rule.value ? " " : "", rule.value ? rule.value : ""),
                         "beside", rule.remedy);
         }
-        for (const NeedsValue& rule : needs_of_values())
-            if (name == rule.command && given(*command, rule.option) && given(*command, rule.other) &&
-                !(rule.unless && given(*command, rule.unless)) &&
-                std::find(rule.values.begin(), rule.values.end(), option_value(*command, rule.other)) ==
-                    rule.values.end())
-                refuse_option(rule.option, fmt::format("{} {}", rule.other, option_value(*command, rule.other)),
-                              "beside",
-                              fmt::format("leave it out, or choose {} {}", rule.other, fmt::join(rule.values, " or ")));
+        const auto is_given = [&](const std::string& option) { return given(*command, option); };
+        for (const NeedsValue& rule : needs_of_values()) {
+            if (name != rule.command || !is_given(rule.other) || (rule.unless && is_given(rule.unless)))
+                continue;
+            const std::string value = option_value(*command, rule.other);
+            if (std::find(rule.values.begin(), rule.values.end(), value) != rule.values.end())
+                continue;
+            for (const std::string& option : rule.options)
+                if (is_given(option))
+                    refuse_option(
+                        option, fmt::format("{} {}", rule.other, value), "beside",
+                        fmt::format("leave it out, or choose {} {}", rule.other, fmt::join(rule.values, " or ")));
+        }
         for (const Needs& rule : needs())
-            if (name == rule.command && given(*command, rule.option) &&
-                std::none_of(rule.others.begin(), rule.others.end(),
-                             [&](const std::string& other) { return given(*command, other); }))
-                refuse_option(rule.option, fmt::format("{}", fmt::join(rule.others, " or ")), "without",
-                              fmt::format("add {} or leave it out", rule.others.back()));
+            if (name == rule.command && std::none_of(rule.others.begin(), rule.others.end(), is_given))
+                for (const std::string& option : rule.options)
+                    if (is_given(option))
+                        refuse_option(option, fmt::format("{}", fmt::join(rule.others, " or ")), "without",
+                                      fmt::format("add {} or leave it out", rule.others.back()));
     }
 }
 

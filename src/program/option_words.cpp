@@ -1,6 +1,7 @@
 #include "program/option_words.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <regex>
 #include <string_view>
 #include <utility>
@@ -14,12 +15,22 @@ struct Words {
     std::string_view said, told;
 };
 
-/// At the beginning: places.
-constexpr Words places[] = {
+/// Settings that are places of messages, and options of the same names.
+constexpr std::string_view named_places[] = {
+    "at",           "channel",        "contacts", "current", "derivative", "disturbance",
+    "displacement", "greatest-speed", "negate",   "periods", "phase",      "port",
+    "ramp",         "reference",      "scale",    "skip",    "tcp",        "voltage",
+};
+
+/// At the beginning: places, and problems that begin with settings.
+constexpr Words beginnings[] = {
     {"given ", "--set "},
-    {"port: ", "--port: "},
-    {"tcp: ", "--tcp: "},
     {"the devices do not differ", "--plot: the devices do not differ"},
+    {"time and periods cannot", "--time and --periods cannot"},
+    {"time and a number of contacts cannot", "--time and a number of --contacts cannot"},
+    {"periods and a number of contacts cannot", "--periods and a number of --contacts cannot"},
+    {"skip and after cannot", "--skip and --after cannot"},
+    {"after does not go with periods of", "--after does not go with periods of"},
 };
 
 constexpr Words remedies[] = {
@@ -38,7 +49,20 @@ constexpr Words remedies[] = {
     {"look at the transitions of the model", "graze check MODEL lists the transitions; --graph FILE draws them"},
     {"name a parameter that does", "name a parameter that does by --parameter NAME"},
     {"or draw it all the same", "or draw it all the same by --despite-rules"},
-    {"let the times leave some", "let --from and --to leave some"},
+    {"let `part` leave some", "let --from and --to leave some"},
+    {"give time T", "give --time T"},
+    {"choose one by phase: ", "choose one by --phase: "},
+    {"leave it out, or give periods N", "leave it out, or give --periods N"},
+    {"use skip N, or time T", "use --skip N, or --time T"},
+    {"name a level, until EXPR=LEVEL, or until end", "name a level, --until EXPR=LEVEL, or --until end"},
+    {"or say where it begins: at VALUE", "or say where it begins: --at VALUE"},
+    {"give gap and stiffness", "give --gap and --stiffness"},
+    {"give beta1, beta2 and gap", "give --beta1, --beta2 and --gap"},
+    {"choose another reference or level", "choose another --reference or --level"},
+    {"name the channel of the input by reference", "name the channel of the input by --reference"},
+    {"name it by channel", "name it by --channel"},
+    {"or choose channel that all of them have", "or choose --channel that all of them have"},
+    {"by write, or take a part of it by from and to", "by --write, or take a part of it by --from and --to"},
     {"give a part of the record whose clock is even", "give a part of the record whose clock is even (--from, --to)"},
     {"name the group whose datasets are the channels", "name the group whose datasets are the channels by --group"},
     {"lines before the names of columns can be passed over",
@@ -70,6 +94,9 @@ constexpr std::pair<const char*, const char*> patterns[] = {
      "run '$1' has no orbit number $2; graze points --run $1 --all lists its $3 orbits"},
     {R"(run '(\S+)' is of kind (.*); see its points$)",
      "run '$1' is of kind $2; see its results by graze export --run $1"},
+    {R"re(convert it in the run that has the record: scale = \{ (\S+) = \{ factor = (\S+), unit = "(.*)" \} \}$)re",
+     "convert it by --scale $1=$2:$3"},
+    {R"(give an approximate one by frequency$)", "give an approximate one by --frequency"},
     {R"(if the comment in line (\d+) does, name that line$)", "if the comment in line $1 does, by --names-line $1"},
 };
 
@@ -77,9 +104,11 @@ constexpr std::pair<const char*, const char*> patterns[] = {
 
 std::string in_options(const std::string& message) {
     std::string text = message;
-    for (const Words& place : places)
-        if (text.starts_with(place.said)) {
-            text.replace(0, place.said.size(), place.told);
+    if (std::ranges::find(named_places, std::string_view(text).substr(0, text.find(": "))) != std::end(named_places))
+        text.insert(0, "--");
+    for (const Words& beginning : beginnings)
+        if (text.starts_with(beginning.said)) {
+            text.replace(0, beginning.said.size(), beginning.told);
             break;
         }
     const std::size_t behind = std::min(text.find("; "), text.size()); // what the problem quotes is not the library's

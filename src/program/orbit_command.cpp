@@ -6,7 +6,6 @@
 #include "graze/results/stored_orbit.hpp"
 #include "program/commands.hpp"
 #include "program/drawing.hpp"
-#include "program/quantity.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>
@@ -28,10 +27,7 @@ Table orbit_table(const Model& model, const std::vector<SegmentMotion>& motion,
     Table table(columns);
     for (std::size_t s = 0; s < motion.size(); ++s)
         for (std::size_t i = 0; i < motion[s].times.size(); ++i) {
-            table.add(static_cast<double>(s + 1));
-            table.add(model.modes[motion[s].mode].name);
-            table.add(motion[s].end);
-            table.add(motion[s].times[i]);
+            table.add(s + 1, model.modes[motion[s].mode].name, motion[s].end, motion[s].times[i]);
             states.add(table, motion[s].states[i]);
         }
     return table;
@@ -92,18 +88,12 @@ JsonObject orbit_heading(const ResultFile& file, const StoredOrbit& stored) {
     const OrbitRecord& record = stored.record;
     const OrbitSolution& solution = record.point.solution;
     const Model& model = stored.run.model;
-    JsonObject heading, parameters, units;
+    JsonObject heading = heading_of_point(file, stored), parameters, units;
     const std::vector<double> values = parameters_of(stored.run, record);
     for (std::size_t i = 0; i < values.size(); ++i)
         parameters.add(stored.run.record.coordinates[i].name, values[i]);
     for (const ResultColumn& column : stored.run.record.coordinates)
         units.add(column.name, column.unit);
-    heading.add("graze", GRAZE_VERSION);
-    heading.add("file", file.path());
-    heading.add("model", model.name);
-    heading.add("run", stored.run.record.name);
-    heading.add("number", static_cast<double>(record.number));
-    heading.add("label", record.label);
     heading.add("type", short_name(record.point.type));
     heading.add("parameters", parameters);
     heading.add("parameter_units", units);

@@ -8,8 +8,6 @@
 #include "picture/gnuplot_text.hpp"
 #include "program/drawing.hpp"
 #include "program/output_file.hpp"
-#include "program/quantity.hpp"
-#include "program/style_arguments.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>

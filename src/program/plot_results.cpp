@@ -4,7 +4,6 @@
 #include "graze/study/showable_names.hpp"
 #include "program/commands.hpp"
 #include "program/drawing.hpp"
-#include "program/style_arguments.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>
@@ -44,29 +43,26 @@ std::vector<std::pair<std::string, std::string>> names_given(const PlotArguments
 }
 
 StudyPicture picture_of(const PlotArguments& arguments, const RunRecord& run) {
-    StudyPicture picture = default_picture(run);
-    picture.points = split_list(arguments.points);
-    if (!arguments.kind.empty())
-        picture.kind = arguments.kind;
-    else if (!picture.points.empty())
-        picture.kind = arguments.x == "t" ? "history" : "portrait";
+    const StudyPicture usual = default_picture(run);
+    StudyPicture picture = arguments.picture;
+    picture.name = usual.name;
+    picture.runs = usual.runs;
+    picture.points = split_list(picture.points);
+    if (picture.kind.empty())
+        picture.kind = picture.points.empty() ? usual.kind : picture.x == "t" ? "history" : "portrait";
     if (!picture.points.empty() && !run.is_branch())
         throw InputError({"--point", 0, 0}, fmt::format("run '{}' has no orbits of a branch", run.name),
                          "choose points of other runs by --at NAME=VALUE");
     if (picture.kind != "regression")
-        for (const auto& [option, given] : {std::pair{"--group", !arguments.group.empty()},
-                                            {"--successive", arguments.successive},
+        for (const auto& [option, given] : {std::pair{"--group", !picture.group.empty()},
+                                            {"--successive", picture.successive},
                                             {"--fit", !arguments.fit.empty()}})
             if (given)
                 throw InputError({option, 0, 0}, fmt::format("a picture of kind '{}' has none", picture.kind),
                                  "leave it out, or choose --kind regression");
-    picture.x = arguments.x;
-    picture.title = arguments.title;
-    picture.group = arguments.group;
-    picture.successive = arguments.successive;
-    picture.y = split_list(arguments.y);
-    picture.samplings = split_list(arguments.samples);
-    picture.directions = split_list(arguments.directions);
+    picture.y = split_list(picture.y);
+    picture.samplings = split_list(picture.samplings);
+    picture.directions = split_list(picture.directions);
     picture.x_range = range_of(arguments.x_range, "--x-range");
     picture.y_range = range_of(arguments.y_range, "--y-range");
     picture.fit = range_of(arguments.fit, "--fit");
@@ -77,8 +73,6 @@ StudyPicture picture_of(const PlotArguments& arguments, const RunRecord& run) {
         picture.at.emplace_back(item.substr(0, equals), number_of_option(item.substr(equals + 1), "--at"));
     }
     picture.names = names_given(arguments);
-    picture.x_label = arguments.x_label;
-    picture.y_labels = arguments.y_labels;
     picture.style = figure_style(arguments.style);
     for (const std::string& axis : arguments.logarithmic) {
         picture.logarithmic_x = picture.logarithmic_x || axis == "x";
@@ -125,10 +119,8 @@ ShownRuns runs_to_show(const ResultFile& file, const Console& console) {
 void check_names(const PlotArguments& arguments, const ResultFile& file, const std::vector<std::string>& runs) {
     if (arguments.names.empty())
         return;
-    StudyPicture picture;
-    picture.x = arguments.x;
-    picture.group = arguments.group;
-    picture.y = split_list(arguments.y);
+    StudyPicture picture = arguments.picture;
+    picture.y = split_list(picture.y);
     ShowableNames showable(picture);
     for (const std::string& name : runs)
         showable.add(StoredRun(file, name, {"--run", 0, 0}).record);
@@ -144,7 +136,7 @@ bool draw_together(const PlotArguments& arguments, const ResultFile& file, const
     const bool followed = std::any_of(all.begin(), all.end(), [](const RunRecord& run) { return run.is_followed(); });
     for (const std::string& name : names) {
         const StoredRun run(file, name, {"--run", 0, 0});
-        if (arguments.runs.empty() && followed && run.record.kind == "orbit")
+        if (arguments.picture.runs.empty() && followed && run.record.kind == "orbit")
             continue; // the starting orbit of a branch is one of the branch's points
         const StudyPicture one = picture_of(arguments, run.record);
         if (!run.record.is_branch() || one.kind != "branch")
@@ -197,7 +189,7 @@ void draw_alone(const PlotArguments& arguments, const ResultFile& file, const st
 
 int plot_command(const PlotArguments& arguments, const Console& console) {
     const ResultFile file(result_path(arguments.file), ResultFile::Access::read);
-    ShownRuns shown{split_list(arguments.runs)};
+    ShownRuns shown{split_list(arguments.picture.runs)};
     if (shown.names.empty())
         shown = runs_to_show(file, console);
     const std::vector<std::string>& names = shown.names;
@@ -213,7 +205,7 @@ int plot_command(const PlotArguments& arguments, const Console& console) {
             draw_alone(arguments, file, name, console);
             ++drawn;
         } catch (const InputError& error) {
-            if (!arguments.runs.empty() || (drawn == 0 && name == names.back()))
+            if (!arguments.picture.runs.empty() || (drawn == 0 && name == names.back()))
                 throw;
             console.err << fmt::format("graze: warning: run '{}' was not drawn: {}\n", name, error.what());
             shown.complete = false;

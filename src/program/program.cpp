@@ -2,7 +2,7 @@
 
 #include "graze/base/input_errors.hpp"
 #include "graze/base/printable.hpp"
-#include "program/arguments.hpp"
+#include "program/command_line.hpp"
 #include "program/commands.hpp"
 #include "program/kept_inputs.hpp"
 #include "program/option_rules.hpp"
@@ -22,10 +22,8 @@ namespace graze {
 namespace {
 
 int dispatch(std::span<const std::string> words, const Console& console) {
-    Arguments arguments;
-    CLI::App app("", "graze");
-    app.set_version_flag("--version", "graze " GRAZE_VERSION, "Print the version");
-    declare_arguments(app, arguments);
+    CommandLine line;
+    CLI::App& app = line.app;
     std::vector<std::string> reversed = with_joined_counts({words.begin(), words.end()});
     std::reverse(reversed.begin(), reversed.end()); // CLI11 expects the last argument first
     try {
@@ -41,7 +39,7 @@ int dispatch(std::span<const std::string> words, const Console& console) {
     const KeptInputs kept;
     for (const CLI::App* command : app.get_subcommands())
         keep_inputs_of(*command);
-    return arguments.commands.at(app.get_subcommands().front()->get_name())(console);
+    return line.commands.at(app.get_subcommands().front()->get_name())(console);
 }
 
 /// Prints one line for each error, at most as many as fit a terminal.

@@ -27,7 +27,7 @@ int write_processed(const RecordArguments& arguments, const Console& console) {
     with_place({arguments.files.front(), 0, 0}, [&] {
         ProcessedRecord record(arguments.files.front(), record_processing(arguments, console));
         const std::vector<std::size_t> channels =
-            record.header().chosen_channels(split_list(arguments.channels), "--channel");
+            record.header().chosen_channels(split_list(arguments.request.channels), "--channel");
         replacement.written_by([&](const std::string& path) {
             write_record(record.source(), channels, path, [] { return InterruptGuard::requested(); });
         });

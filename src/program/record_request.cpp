@@ -6,8 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,13 +15,10 @@ namespace graze {
 namespace {
 
 double number_of(const std::string& text, const Place& place) {
-    double value = 0;
-    const char* const end = text.data() + text.size();
-    const auto [next, error] = std::from_chars(text.data(), end, value);
-    if (error != std::errc() || next != end || !std::isfinite(value))
-        throw InputError(place, fmt::format("'{}' is no number", text),
-                         "write NAME=FACTOR, NAME=FACTOR+OFFSET or NAME=FACTOR+OFFSET:UNIT");
-    return value;
+    if (const std::optional<double> value = finite_number_in(text))
+        return *value;
+    throw InputError(place, fmt::format("'{}' is no number", text),
+                     "write NAME=FACTOR, NAME=FACTOR+OFFSET or NAME=FACTOR+OFFSET:UNIT");
 }
 
 /// Reads NAME=FACTOR[+OFFSET][:UNIT].
@@ -53,13 +49,11 @@ RecordProcessing::Scale scale_of(const std::string& text) {
 std::vector<double> phases_of(const std::vector<std::string>& asked) {
     std::vector<double> phases;
     for (const std::string& text : split_list(asked)) {
-        double value = 0;
-        const char* const end = text.data() + text.size();
-        const auto [next, error] = std::from_chars(text.data(), end, value);
-        if (error != std::errc() || next != end || !(value >= 0 && value < 1))
+        const std::optional<double> value = finite_number_in(text);
+        if (!value || !(*value >= 0 && *value < 1))
             throw InputError(Place{"--phase " + text, 0, 0}, "it is no part of a period",
                              "give numbers from 0 to less than 1, such as 0,0.25,0.5");
-        phases.push_back(value);
+        phases.push_back(*value);
     }
     return phases.empty() ? std::vector<double>{0} : phases;
 }
@@ -67,45 +61,24 @@ std::vector<double> phases_of(const std::vector<std::string>& asked) {
 } // namespace
 
 RecordProcessing record_processing(const RecordArguments& arguments, const Console& console) {
-    RecordProcessing processing;
-    processing.asked_as = "--";
-    processing.layout.columns = arguments.columns;
-    processing.layout.skip = arguments.skip;
-    processing.layout.names_line = arguments.names_line;
-    processing.layout.units_line = arguments.units_line;
+    RecordProcessing processing = arguments.processing;
     processing.layout.remark = [&console](const std::string& text) {
         console.err << fmt::format("graze: warning: {}\n", text);
     };
-    if (!arguments.group.empty())
-        processing.layout.group = arguments.group;
     for (const std::string& text : arguments.scales)
         processing.scales.push_back(scale_of(text));
-    processing.begin = arguments.from.value_or(processing.begin);
-    processing.end = arguments.to.value_or(processing.end);
-    processing.pass = arguments.pass.value_or(0);
-    processing.stop = arguments.stop.value_or(0);
-    processing.every = arguments.every;
-    processing.derivative = arguments.derivative;
-    processing.half_width = arguments.half_width;
     return processing;
 }
 
 RecordTableRequest record_table_request(const RecordArguments& arguments) {
-    RecordTableRequest request;
+    RecordTableRequest request = arguments.request;
     const std::vector<std::string> tables = record_table_names();
     request.what =
         static_cast<RecordTableRequest::What>(std::find(tables.begin(), tables.end(), arguments.what) - tables.begin());
-    request.channels = split_list(arguments.channels);
-    request.reference = arguments.reference;
-    request.level = arguments.level;
-    request.hysteresis = arguments.hysteresis;
+    request.channels = split_list(request.channels);
     request.phases = phases_of(arguments.phases);
-    request.negated = split_list(arguments.negated);
-    request.displacement = arguments.displacement;
-    request.impacts = arguments.impacts;
-    request.part = arguments.part;
+    request.negated = split_list(request.negated);
     request.drawn = !arguments.plot.empty();
-    request.asked_as = "--";
     return request;
 }
 

@@ -6,12 +6,10 @@
 #include "program/commands.hpp"
 #include "program/interrupt.hpp"
 #include "program/kept_inputs.hpp"
-#include "program/listed_studies.hpp"
 #include "program/output_file.hpp"
 #include "program/progress_line.hpp"
 #include "program/step_lines.hpp"
-#include "program/study_pictures.hpp"
-#include "program/study_tables.hpp"
+#include "program/study_outputs.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>
@@ -37,19 +35,6 @@ std::string status_of(const RunReport& report) {
     return report.computed == 0 ? "was there" : report.computed < report.points ? "gone on with" : "done";
 }
 
-void add_report(Table& table, const RunReport& report) {
-    table.add(report.name);
-    table.add(report.kind);
-    table.add(static_cast<double>(report.points));
-    table.add(static_cast<double>(report.computed));
-    table.add(report.seconds);
-    table.add(status_of(report));
-}
-
-std::vector<Table::Column> report_columns() {
-    return {{"run", ""}, {"kind", ""}, {"points", ""}, {"computed", ""}, {"seconds", "s"}, {"status", ""}};
-}
-
 /// The estimates with known errors of a run of kind identify, as one line. Estimates of single records are left out:
 /// their names contain blanks.
 std::string estimates_text(const std::string& run, const ResultFile& file) {
@@ -66,10 +51,7 @@ std::string estimates_text(const std::string& run, const ResultFile& file) {
 Table run_table(const std::vector<RunReport>& reports, const ResultFile& file) {
     Table table({{"run", ""}, {"points", ""}, {"seconds", "s"}, {"status", ""}, {"results", ""}});
     for (const RunReport& report : reports) {
-        table.add(report.name);
-        table.add(static_cast<double>(report.points));
-        table.add(report.seconds);
-        table.add(status_of(report));
+        table.add(report.name, report.points, report.seconds, status_of(report));
         const RunSummary run = summary_of(report, file);
         std::string results = estimates_text(report.name, file);
         for (const auto& [label, count] : results.empty() ? run.labels : LabelCounts())
@@ -98,7 +80,8 @@ Table cells_of(const std::vector<RunReport>& reports, const ResultFile& file) {
             if (std::find(labels.begin(), labels.end(), one.first) == labels.end())
                 labels.push_back(one.first);
     }
-    std::vector<Table::Column> columns = report_columns();
+    std::vector<Table::Column> columns{{"run", ""},      {"kind", ""},     {"points", ""},
+                                       {"computed", ""}, {"seconds", "s"}, {"status", ""}};
     for (std::string label : labels) {
         std::replace(label.begin(), label.end(), ' ', '_');
         columns.push_back({"points_" + label, ""});
@@ -108,18 +91,17 @@ Table cells_of(const std::vector<RunReport>& reports, const ResultFile& file) {
         columns.insert(columns.end(), {{fmt::format("part_{}", p), ""}, {fmt::format("ended_{}", p), ""}});
     Table table(columns);
     for (std::size_t r = 0; r < reports.size(); ++r) {
-        add_report(table, reports[r]);
+        const RunReport& report = reports[r];
+        table.add(report.name, report.kind, report.points, report.computed, report.seconds, status_of(report));
         for (const std::string& label : labels) {
             const auto found = std::find_if(runs[r].labels.begin(), runs[r].labels.end(),
                                             [&](const auto& one) { return one.first == label; });
             table.add(found == runs[r].labels.end() ? 0.0 : static_cast<double>(found->second));
         }
-        table.add(runs[r].remedy);
-        table.add(runs[r].escapes);
+        table.add(runs[r].remedy, runs[r].escapes);
         for (std::size_t p = 0; p < parts; ++p) {
             const bool there = p < runs[r].ends.size();
-            table.add(there ? runs[r].ends[p].first : "");
-            table.add(there ? runs[r].ends[p].second : "");
+            table.add(there ? runs[r].ends[p].first : "", there ? runs[r].ends[p].second : "");
         }
     }
     return table;

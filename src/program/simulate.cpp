@@ -10,7 +10,6 @@
 #include "program/interrupt.hpp"
 #include "program/output_file.hpp"
 #include "program/plot.hpp"
-#include "program/quantity.hpp"
 #include "program/status_line.hpp"
 #include "program/values.hpp"
 
@@ -33,10 +32,7 @@ Model prepared_model(const SimulateArguments& arguments) {
 }
 
 SimulationOptions simulation_options(const Model& model, const SimulateArguments& arguments, TableKind kind) {
-    SimulationOptions options;
-    options.tolerance = arguments.tolerance;
-    options.order = arguments.order;
-    options.step_limit = arguments.steps;
+    SimulationOptions options = arguments.method;
     options.minima = kind == TableKind::minima;
     if (!arguments.largest_step.empty())
         options.largest_step = positive_value_of(model, arguments.largest_step, "--largest-step");
@@ -61,7 +57,7 @@ TableKind chosen_table(const SimulateArguments& arguments) {
         implied.push_back(TableKind::minima);
     if (!arguments.derivatives.empty())
         implied.push_back(TableKind::derivatives);
-    if (arguments.contacts || (arguments.contact_count && implied.empty()))
+    if (arguments.contacts || (arguments.length.contacts && implied.empty()))
         implied.push_back(TableKind::contacts);
     if (implied.size() > 1)
         throw InputError("these options ask for several tables", "choose one by --table, for example --table contacts");
@@ -127,16 +123,11 @@ TableRequest table_request(const Model& model, const SimulateArguments& argument
 }
 
 RunLength asked_length(const Model& model, const SimulateArguments& arguments) {
-    RunLengthRequest request;
+    RunLengthRequest request = arguments.length;
     if (!arguments.time.empty())
         request.time = positive_value_of(model, arguments.time, "--time");
     if (!arguments.after.empty())
         request.after = positive_value_of(model, arguments.after, "--after");
-    request.periods = arguments.periods;
-    request.contacts = arguments.contact_count;
-    request.skip = arguments.skip;
-    request.phase = arguments.phase;
-    request.asked_as = "--";
     return run_length(model, request);
 }
 

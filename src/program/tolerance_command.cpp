@@ -113,10 +113,8 @@ Table derivatives_of(const Findings& found) {
     const std::vector<std::string> names = found.model.independent_parameters();
     for (std::size_t i = 0; i < located.others().size(); ++i) {
         const ParameterId parameter = located.others()[i];
-        table.add(names[parameter.place()]);
-        table.add(located.values()[i]);
-        table.add(located.derivatives()[i]);
-        table.add(located.value() != 0 ? located.derivatives()[i] * located.values()[i] / located.value()
+        table.add(names[parameter.place()], located.values()[i], located.derivatives()[i],
+                  located.value() != 0 ? located.derivatives()[i] * located.values()[i] / located.value()
                                        : not_a_number);
         if (!found.yield)
             continue;
@@ -126,9 +124,9 @@ Table derivatives_of(const Findings& found) {
                                             [&](const Tolerance& one) { return one.parameter == parameter; });
         const auto part = std::find_if(parts.begin(), parts.end(),
                                        [&](const Contribution& one) { return one.parameter == parameter; });
-        table.add(tolerance == tolerances.end() ? not_a_number : tolerance->deviation());
-        table.add(part == parts.end() ? not_a_number : part->deviation);
-        table.add(part == parts.end() ? not_a_number : part->share);
+        table.add(tolerance == tolerances.end() ? not_a_number : tolerance->deviation(),
+                  part == parts.end() ? not_a_number : part->deviation,
+                  part == parts.end() ? not_a_number : part->share);
     }
     return table;
 }
@@ -138,11 +136,7 @@ class Statistics {
 public:
     Statistics() : table_({{"quantity", ""}, {"value", ""}, {"low", ""}, {"high", ""}, {"meaning", ""}}) {}
     void add(const std::string& name, double value, double low, double high, const std::string& meaning) {
-        table_.add(name);
-        table_.add(value);
-        table_.add(low);
-        table_.add(high);
-        table_.add(meaning);
+        table_.add(name, value, low, high, meaning);
         values_.add(name, value);
         if (std::isfinite(low) || std::isfinite(high)) {
             values_.add(name + "_low", low);
@@ -186,14 +180,7 @@ Statistics statistics_of(const Findings& found) {
 }
 
 JsonObject tolerance_heading(const ResultFile& file, const Findings& found) {
-    const OrbitRecord& record = found.stored.record;
-    JsonObject heading;
-    heading.add("graze", GRAZE_VERSION);
-    heading.add("file", file.path());
-    heading.add("model", found.model.name);
-    heading.add("run", found.stored.run.record.name);
-    heading.add("number", static_cast<double>(record.number));
-    heading.add("label", record.label);
+    JsonObject heading = heading_of_point(file, found.stored);
     heading.add("type", short_name(found.point.type));
     heading.add("parameter", found.name);
     heading.add("unit", found.unit);

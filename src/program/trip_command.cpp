@@ -5,7 +5,6 @@
 #include "graze/trip/overshoot_trip.hpp"
 #include "program/asked_trip.hpp"
 #include "program/commands.hpp"
-#include "program/disturbed_trips.hpp"
 #include "program/drawing.hpp"
 #include "program/interrupt.hpp"
 #include "program/values.hpp"
@@ -59,23 +58,13 @@ double if_ended(const TripTime& trip, double value) {
 Table table_of_touch(const OvershootTrips& trips) {
     const LossPoint& point = trips.point;
     const std::string& time = point.model().time_unit;
-    Table table({{"overshoot", point.unit},
-                 {"first_speed", ""},
-                 {"cycles", ""},
-                 {"time", time},
-                 {"end_cycles", ""},
-                 {"end_time", time},
-                 {"ending", ""},
-                 {"simulated_time", time}});
+    Table table{{"overshoot", point.unit}, {"first_speed", ""}, {"cycles", ""}, {"time", time},
+                {"end_cycles", ""},        {"end_time", time},  {"ending", ""}, {"simulated_time", time}};
     for (const OvershootTrip& row : trips.of_touch) {
-        table.add(row.overshoot);
-        table.add(row.predicted->first_speed);
-        table.add(if_ended(*row.predicted, row.predicted->cycles));
-        table.add(if_ended(*row.predicted, row.predicted->time));
-        table.add(if_ended(*row.continued, row.continued->cycles));
-        table.add(if_ended(*row.continued, row.continued->time));
-        table.add(row.continued->ending);
-        table.add(row.simulated ? if_ended(*row.simulated, row.simulated->time) : not_a_number);
+        table.add(row.overshoot, row.predicted->first_speed, if_ended(*row.predicted, row.predicted->cycles),
+                  if_ended(*row.predicted, row.predicted->time), if_ended(*row.continued, row.continued->cycles),
+                  if_ended(*row.continued, row.continued->time), row.continued->ending,
+                  row.simulated ? if_ended(*row.simulated, row.simulated->time) : not_a_number);
     }
     return table;
 }
@@ -92,36 +81,31 @@ Table table_of_fold(const OvershootTrips& trips) {
     }
     Table table(std::move(columns));
     for (const FoldTrip& row : trips.of_fold) {
-        table.add(row.overshoot);
-        table.add(row.cycles);
-        table.add(row.cycles * point.cycle);
-        table.add(row.gate_cycles);
-        table.add(row.passage && row.passage->passed ? row.passage->cycles : not_a_number);
-        table.add(row.passage && row.passage->passed ? row.passage->time : not_a_number);
+        table.add(row.overshoot, row.cycles, row.cycles * point.cycle, row.gate_cycles,
+                  row.passage && row.passage->passed ? row.passage->cycles : not_a_number,
+                  row.passage && row.passage->passed ? row.passage->time : not_a_number);
         if (!until_end)
             continue;
-        table.add(row.passage ? if_ended(row.passage->trip, row.passage->trip.time) : not_a_number);
-        table.add(row.passage ? row.passage->trip.ending : "");
+        table.add(row.passage ? if_ended(row.passage->trip, row.passage->trip.time) : not_a_number,
+                  row.passage ? row.passage->trip.ending : "");
     }
     return table;
 }
 
 Table table_of_both(const OvershootTrips& one, const OvershootTrips& other) {
     const std::string &time = one.point.model().time_unit, &other_time = other.point.model().time_unit;
-    Table table({{"overshoot", one.point.unit},
-                 {"cycles", ""},
-                 {"time", time},
-                 {"end_time", time},
-                 {"beside_cycles", ""},
-                 {"beside_time", other_time},
-                 {"beside_end_time", other_time}});
+    Table table{{"overshoot", one.point.unit},
+                {"cycles", ""},
+                {"time", time},
+                {"end_time", time},
+                {"beside_cycles", ""},
+                {"beside_time", other_time},
+                {"beside_end_time", other_time}};
     const std::vector<TripSummary> rows = one.summaries(), others = other.summaries();
     for (std::size_t i = 0; i < std::min(rows.size(), others.size()); ++i) {
         table.add(rows[i].overshoot);
         for (const TripSummary& summary : {rows[i], others[i]}) {
-            table.add(summary.cycles);
-            table.add(summary.time);
-            table.add(summary.end_time);
+            table.add(summary.cycles, summary.time, summary.end_time);
         }
     }
     return table;
@@ -159,7 +143,7 @@ int trip_command(const TripArguments& arguments, const Console& console) {
             overshoot = &one == &asked.front() ? overshoot : one.point.side * std::abs(overshoot);
         if (!all.empty() && all.front().interrupted)
             own.clear();
-        all.push_back(overshoot_trips(one.point, one.end, own, trip_options(one.point, arguments), "--"));
+        all.push_back(overshoot_trips(one.point, one.end, own, trip_options(one.point, arguments)));
         const std::vector<std::string> here = lacks_of(all.back());
         lacks.insert(lacks.end(), here.begin(), here.end());
     }

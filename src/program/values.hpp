@@ -1,9 +1,13 @@
 #pragma once
 
 #include "graze/model/model.hpp"
+#include "graze/model/named_value.hpp"
+#include "graze/picture/figure.hpp"
 #include "graze/results/name_advice.hpp"
+#include "program/arguments.hpp"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -41,5 +45,22 @@ void require_models_of_files(const std::vector<std::string>& assignments, const 
 void set_initial_state(Model& model, const std::vector<std::string>& assignments);
 /// The value that `--disturbance STATE=EXPRESSION ...` adds to each state; empty if none is given. @throws InputError
 std::vector<double> disturbance_of(const Model& model, const std::vector<std::string>& assignments);
+
+/// An expression in states and parameters whose values the user asked for.
+using RequestedQuantity = NamedValue;
+
+/// Parses a quantity's name or an expression. @param option for messages
+/// @throws InputError with the place when it is no expression
+RequestedQuantity requested_quantity(const Model& model, const std::string& text, const std::string& option);
+std::vector<RequestedQuantity> requested_quantities(const Model& model, const std::vector<std::string>& texts,
+                                                    const std::string& option);
+
+/// The number that is the whole text; none unless it is finite.
+std::optional<double> finite_number_in(std::string_view text);
+/// The number that an option gives. @throws InputError unless it is a finite number
+double number_of_option(const std::string& text, const char* option);
+
+/// The style that `--size`, `--font` and `--grey` give. @throws InputError for sizes that cannot be drawn
+FigureStyle figure_style(const StyleArguments& arguments);
 
 } // namespace graze

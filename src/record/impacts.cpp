@@ -229,11 +229,11 @@ bool ImpactFinder::next(std::vector<RecordedImpact>& impacts) {
 }
 
 ImpactSettings impact_settings(const RecordHeader& header, const std::string& velocity, const std::string& displacement,
-                               const ImpactWindow& window, const std::string& asked_as) {
+                               const ImpactWindow& window) {
     ImpactSettings settings{window};
-    settings.velocity = header.channel(velocity, asked_as + "channel");
+    settings.velocity = header.channel(velocity, "channel");
     if (!displacement.empty())
-        settings.displacement = header.channel(displacement, asked_as + "displacement");
+        settings.displacement = header.channel(displacement, "displacement");
     return settings;
 }
 

@@ -161,7 +161,7 @@ PeriodFit fit_period(std::span<const double> crossings) {
 }
 
 RecordPeriods each_period(SampleSource& source, const PeriodSettings& settings,
-                          const std::function<void(const Period&)>& take, const std::string& asked_as) {
+                          const std::function<void(const Period&)>& take) {
     PeriodSplitter splitter(borrowed(source), settings);
     RecordPeriods found;
     double sum = 0;
@@ -172,7 +172,7 @@ RecordPeriods each_period(SampleSource& source, const PeriodSettings& settings,
     if (found.count == 0)
         throw InputError(fmt::format("'{}' does not rise through {} twice",
                                      source.header().channels[settings.reference].name, settings.level),
-                         fmt::format("choose another {0}reference or {0}level, or record more periods", asked_as));
+                         "choose another reference or level, or record more periods");
     found.amplitude = sum / static_cast<double>(found.count);
     return found;
 }

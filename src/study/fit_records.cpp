@@ -97,14 +97,14 @@ private:
         if (!known.name.empty() && known.unit != channel.unit)
             throw InputError(fmt::format("channel '{}' is in {}, and that of another record in {}", channel.name,
                                          text(channel.unit), text(known.unit)),
-                             scale_remedy(*run_, channel, known.unit));
+                             scale_remedy(channel, known.unit));
         known = channel;
         const std::string& meant = units_[output];
         if (!reading.gain_unknown && reading.gain == 1 && !channel.unit.empty() && !meant.empty() &&
             unit_symbol(channel.unit) != unit_symbol(meant))
             throw InputError(
                 fmt::format("channel '{}' is in {}, and what it measures in {}", channel.name, channel.unit, meant),
-                scale_remedy(*run_, channel, meant));
+                scale_remedy(channel, meant));
     }
 
     const StudyRun* run_;

@@ -77,7 +77,6 @@ IdentificationSettings settings_of(const StudyRun& run, const std::vector<Estima
     settings.displacement_noise = request.displacement_noise;
     settings.current_noise = request.current_noise;
     settings.one_load_a_record = count > 1 && !request.each_row;
-    settings.asked_as = request.asked_as;
     const auto value = [&](const std::string& text, double error) -> std::optional<Estimate> {
         if (text.empty())
             return std::nullopt;

@@ -58,7 +58,7 @@ void check_channel(const StudyRun& run, const Channel& channel) {
         return;
     throw InputError(fmt::format("channel '{}' is in {}, and what the model has of that kind in {}", channel.name,
                                  channel.unit, fmt::join(wanted, " and ")),
-                     scale_remedy(run, channel, wanted.front()));
+                     scale_remedy(channel, wanted.front()));
 }
 
 /// Checks the unit of a number that is known beforehand. Only a text that is the name of a parameter has a known unit.
@@ -108,12 +108,10 @@ double factor_between(const std::string& from, const std::string& to) {
 
 } // namespace
 
-std::string scale_remedy(const StudyRun& run, const Channel& channel, const std::string& unit) {
+std::string scale_remedy(const Channel& channel, const std::string& unit) {
     const auto from = told_unit(channel.unit), to = told_unit(unit);
     const std::string factor =
         from && to && from->dimension == to->dimension ? fmt::format("{:g}", converted(1, *from, *to)) : "FACTOR";
-    if (!run.identify().asked_as.empty())
-        return fmt::format("convert it by {}scale {}={}:{}", run.identify().asked_as, channel.name, factor, unit);
     return fmt::format("convert it in the run that has the record: scale = {{ {} = {{ factor = {}, unit = \"{}\" }} }}",
                        channel.name, factor, unit);
 }
@@ -134,7 +132,7 @@ void check_record_time(const StudyRun& run, const RecordHeader& header) {
 void check_record_units(const StudyRun& run, const RecordHeader& header) {
     const IdentifyRequest& request = run.identify();
     const auto channel = [&](const std::string& name, const char* key) -> const Channel& {
-        return header.channels[header.channel(name, request.asked_as + key)];
+        return header.channels[header.channel(name, key)];
     };
     std::string length = "m"; // unless the record has another unit of displacements
     if (request.what == What::coupling) {

@@ -16,8 +16,8 @@ namespace graze {
 void check_record_units(const StudyRun& run, const RecordHeader& header);
 /// The same of its time alone.
 void check_record_time(const StudyRun& run, const RecordHeader& header);
-/// How to bring a channel into a unit, in the words of the study or of the command line.
-std::string scale_remedy(const StudyRun& run, const Channel& channel, const std::string& unit);
+/// How to bring a channel into a unit, in the words of a study.
+std::string scale_remedy(const Channel& channel, const std::string& unit);
 
 /// Gives estimates of parameters of the run's model the units of these, their covariances as well: 0.1 rad/ms is
 /// 100 rad/s, and a frequency of 1 Hz is 2 pi rad/s. Other estimates stay as they are, and units that one of both does

@@ -31,7 +31,7 @@ std::optional<double> value_in_parameters(const Model& model, const Expression& 
     return model.values_of({{expanded}})[0];
 }
 
-std::optional<double> time_of_period(const Model& model, std::size_t state, const std::string& asked_as) {
+std::optional<double> time_of_period(const Model& model, std::size_t state) {
     std::optional<double> common;
     for (const Mode& mode : model.modes) {
         const auto rate = value_in_parameters(model, mode.rates[state]);
@@ -43,7 +43,7 @@ std::optional<double> time_of_period(const Model& model, std::size_t state, cons
     const double time = period && common ? *period / std::abs(*common) : 0;
     if (!(time > 0) || !std::isfinite(time))
         throw InputError(fmt::format("the phase '{}' does not move", model.states[state].name),
-                         fmt::format("give {}time T, or choose parameters that make it move", asked_as));
+                         "give time T, or choose parameters that make it move");
     return time;
 }
 
@@ -53,18 +53,17 @@ Phase find_phase(const Model& model, const RunLengthRequest& request, const std:
     for (const State& state : model.states)
         if (state.period)
             names.push_back(state.name);
-    const std::string &wanted = request.phase, &as = request.asked_as;
+    const std::string& wanted = request.phase;
     if (names.empty())
-        throw InputError(fmt::format("{}, but the model has no cyclic state", purpose),
-                         fmt::format("give {}time T", as));
+        throw InputError(fmt::format("{}, but the model has no cyclic state", purpose), "give time T");
     if (!wanted.empty() && std::find(names.begin(), names.end(), wanted) == names.end())
-        throw InputError({as + "phase", 0, 0}, fmt::format("'{}' is no cyclic state", wanted),
+        throw InputError({"phase", 0, 0}, fmt::format("'{}' is no cyclic state", wanted),
                          name_advice(wanted, names, ""));
     if (wanted.empty() && names.size() > 1)
         throw InputError(fmt::format("{}, but there are several cyclic states", purpose),
-                         fmt::format("choose one by {}phase: {}", as, fmt::join(names, ", ")));
+                         fmt::format("choose one by phase: {}", fmt::join(names, ", ")));
     const std::size_t state = *model.find_state(wanted.empty() ? names.front() : wanted);
-    return {state, time_of_period(model, state, as)};
+    return {state, time_of_period(model, state)};
 }
 
 std::size_t positive_count(const std::optional<int>& count, const std::string& name) {
@@ -76,27 +75,24 @@ std::size_t positive_count(const std::optional<int>& count, const std::string& n
 void refuse_contradictions(const RunLengthRequest& request) {
     const auto refuse = [&](bool one, bool other, const char* names) {
         if (one && other)
-            throw InputError(
-                fmt::format("{} cannot be given together", fmt::format(fmt::runtime(names), request.asked_as)),
-                "choose one of them");
+            throw InputError(fmt::format("{} cannot be given together", names), "choose one of them");
     };
     const bool time = request.time.has_value(), periods = request.periods.has_value();
-    refuse(time, periods, "{0}time and {0}periods");
-    refuse(time, request.contacts.has_value(), "{0}time and a number of {0}contacts");
-    refuse(periods, request.contacts.has_value(), "{0}periods and a number of {0}contacts");
-    refuse(request.after.has_value(), request.skip.has_value(), "{0}skip and {0}after");
+    refuse(time, periods, "time and periods");
+    refuse(time, request.contacts.has_value(), "time and a number of contacts");
+    refuse(periods, request.contacts.has_value(), "periods and a number of contacts");
+    refuse(request.after.has_value(), request.skip.has_value(), "skip and after");
 }
 
 } // namespace
 
 RunLength run_length(const Model& model, const RunLengthRequest& request) {
     refuse_contradictions(request);
-    const std::string& as = request.asked_as;
     const bool after = request.after.has_value();
     RunLength length;
-    length.shown.contacts = positive_count(request.contacts, as + "contacts");
-    length.shown.periods = positive_count(request.periods, as + "periods");
-    length.transient.periods = positive_count(request.skip, as + "skip");
+    length.shown.contacts = positive_count(request.contacts, "contacts");
+    length.shown.periods = positive_count(request.periods, "periods");
+    length.transient.periods = positive_count(request.skip, "skip");
     if (request.time)
         length.shown.expected = length.shown.duration = *request.time;
     if (after)
@@ -106,8 +102,7 @@ RunLength run_length(const Model& model, const RunLengthRequest& request) {
         length.shown.periods = default_periods;
     if (length.shown.periods == 0 && length.transient.periods == 0) {
         if (!request.phase.empty())
-            throw InputError({as + "phase", 0, 0}, "no periods are counted",
-                             fmt::format("leave it out, or give {}periods N", as));
+            throw InputError({"phase", 0, 0}, "no periods are counted", "leave it out, or give periods N");
         return length;
     }
 
@@ -119,9 +114,9 @@ RunLength run_length(const Model& model, const RunLengthRequest& request) {
     if (after) {
         // The phase at which the shown leg begins is not known beforehand, so its passages cannot be counted.
         if (!phase.time)
-            throw InputError(fmt::format("{}after does not go with periods of '{}', whose rate is not constant", as,
+            throw InputError(fmt::format("after does not go with periods of '{}', whose rate is not constant",
                                          model.states[phase.state].name),
-                             fmt::format("use {0}skip N, or {0}time T", as));
+                             "use skip N, or time T");
         length.shown.duration = *length.shown.expected;
         length.shown.periods = 0;
         return length;

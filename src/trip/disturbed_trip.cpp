@@ -36,15 +36,15 @@ const std::string name_of_origin(const System& system, const TripOrigin& origin)
     return system.model().independent_parameters().at(origin.parameter.place());
 }
 
-TripOrigin origin_of_ramp(const LossPoint& point, double from, bool given, const std::string& asked_as) {
+TripOrigin origin_of_ramp(const LossPoint& point, double from, bool given) {
     try {
         return trip_origin(point, from);
     } catch (const InputError& error) {
         if (given)
-            throw InputError(Place{asked_as + "at", 0, 0}, error.problem(), error.remedy());
-        throw InputError(Place{asked_as + "ramp", 0, 0},
+            throw InputError(Place{"at", 0, 0}, error.problem(), error.remedy());
+        throw InputError(Place{"ramp", 0, 0},
                          fmt::format("the ramp would begin at {} = {:.6g}: {}", point.name, from, error.problem()),
-                         fmt::format("give a slower one, or say where it begins: {}at VALUE", asked_as));
+                         "give a slower one, or say where it begins: at VALUE");
     }
 }
 
@@ -94,7 +94,7 @@ TripTime swung_trip(const System& system, const TripOrigin& origin, double ampli
 }
 
 std::vector<RampRow> ramped_trips(const LossPoint& point, const std::vector<double>& rates, std::optional<double> from,
-                                  const TripEnd& end, const TripOptions& options, const std::string& asked_as) {
+                                  const TripEnd& end, const TripOptions& options) {
     std::vector<RampRow> rows;
     for (const double rate : rates) {
         if (!(rate * point.side > 0))
@@ -103,8 +103,7 @@ std::vector<RampRow> ramped_trips(const LossPoint& point, const std::vector<doub
                                          rate),
                              point.side > 0 ? "give a positive rate" : "give a negative rate");
         RampRow row{rate, from ? *from : beginning_of_ramp(point, rate), {}, {}, {}};
-        row.ramped =
-            ramped_trip(point.system, origin_of_ramp(point, row.from, from.has_value(), asked_as), rate, end, options);
+        row.ramped = ramped_trip(point.system, origin_of_ramp(point, row.from, from.has_value()), rate, end, options);
         if (options.interrupted && options.interrupted())
             break;
         if (row.ramped.trip.ended)

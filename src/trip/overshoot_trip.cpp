@@ -25,10 +25,10 @@ NamedEnd usual_end(const LossPoint& point) {
     return {{point.level, {}, 0}, fmt::format("speed {:.4g}", point.level), false};
 }
 
-NamedEnd end_at_speed(const LossPoint& point, double speed, const std::string& asked_as) {
+NamedEnd end_at_speed(const LossPoint& point, double speed) {
     if (point.fold)
-        throw InputError(Place{asked_as + "greatest-speed", 0, 0}, "a fold has no contact of its own",
-                         fmt::format("name a level, {0}until EXPR=LEVEL, or {0}until end", asked_as));
+        throw InputError(Place{"greatest-speed", 0, 0}, "a fold has no contact of its own",
+                         "name a level, until EXPR=LEVEL, or until end");
     return {{speed, {}, 0}, fmt::format("speed {:.4g}", speed), true};
 }
 
@@ -88,9 +88,9 @@ const TripTime* OvershootTrips::unfinished(std::size_t index) const {
 }
 
 OvershootTrips overshoot_trips(const LossPoint& point, const NamedEnd& end, const std::vector<double>& overshoots,
-                               const TripOptions& options, const std::string& asked_as) {
+                               const TripOptions& options) {
     if (point.fold && !options.disturbance.empty())
-        throw InputError(Place{asked_as + "disturbance", 0, 0}, "a passage through a fold begins before it",
+        throw InputError(Place{"disturbance", 0, 0}, "a passage through a fold begins before it",
                          "leave it out, or choose a touch (GR)");
     OvershootTrips trips{point, end};
     for (const double overshoot : overshoots) {

@@ -232,8 +232,7 @@ TEST(Identification, CouplingIsLeftOutWhereNoMagnetHasIt) {
 
 TEST(Identification, CouplingTakesRowsOrRecordsAsEquilibria) {
     IdentificationSettings settings;
-    settings.asked_as = "--";
-    EXPECT_THAT(message_of([&] { identify_coupling(each({}), settings); }), HasSubstr("give --gap and --stiffness"));
+    EXPECT_THAT(message_of([&] { identify_coupling(each({}), settings); }), HasSubstr("give gap and stiffness"));
     settings.gap = gap;
     settings.stiffness = stiffness;
     const std::vector<Channel> channels{{"q", "m"}, {"I", "A"}};
@@ -271,9 +270,9 @@ TEST(Identification, ImpedanceWarnsOfSigns) {
     const Identification turned = identify_impedance(each({coil(-1)}), {});
     ASSERT_EQ(turned.warnings.size(), 2U) << "resistance and inductance are both negative";
     EXPECT_THAT(turned.warnings[0], HasSubstr("the resistance comes out below zero"));
-    const IdentificationSettings half{.beta1 = Estimate{1.9e-5, 0, 0}, .asked_as = "--"};
+    const IdentificationSettings half{.beta1 = Estimate{1.9e-5, 0, 0}};
     EXPECT_THAT(message_of([&] { identify_impedance(each({coil(1)}), half); }),
-                HasSubstr("give --beta1, --beta2 and --gap, or none"));
+                HasSubstr("give beta1, beta2 and gap, or none"));
 }
 
 /// The same record in other units; `times` and `values` are the factors of the numbers.
@@ -334,8 +333,8 @@ TEST(Identification, RefusesRecordsWithoutUsableNumbers) {
     for (double& value : huge.samples.values[0])
         value *= 1e150;
     EXPECT_THAT(message_of([&] { identify_decrement(each({huge}), {}); }), HasSubstr("(scale v="));
-    const IdentificationSettings other{.channel = "w", .asked_as = "--"};
-    EXPECT_THAT(message_of([&] { identify_decrement(each({release(0.1)}), other); }), HasSubstr("--channel"));
+    const IdentificationSettings other{.channel = "w"};
+    EXPECT_THAT(message_of([&] { identify_decrement(each({release(0.1)}), other); }), HasSubstr("channel: "));
 }
 
 } // namespace graze::testing

@@ -37,9 +37,7 @@ TEST(Check, WarnsAndReportsPlaces) {
     EXPECT_EQ(warned.code, 0);
     EXPECT_THAT(warned.err, HasSubstr("graze: warning: " + file + ": nothing uses the parameter 'unused'"));
     std::ofstream(file) << "name = \"m\"\n[states]\nx = 0\n[modes.a]\nrates = { x = \"y\" }\n";
-    const Printed wrong = run_graze("check " + file);
-    EXPECT_EQ(wrong.code, exit_bad_input);
-    EXPECT_THAT(wrong.err, HasSubstr("graze: " + file + ":5:"));
+    expect_refusal("check " + file, "graze: " + file + ":5:");
 }
 
 TEST(Check, ReportsEachMistakeOnItsOwnLine) {
@@ -108,13 +106,13 @@ TEST(Check, WarnsOfAProbablyWrongSign) {
 
 TEST(Check, DrawsTheGraphOfModes) {
     const Folder folder;
-    EXPECT_EQ(run_graze("check mems-switch --graph " + (folder / "modes.dot")).code, 0);
+    done("check mems-switch --graph " + (folder / "modes.dot"));
     EXPECT_THAT(contents(folder / "modes.dot"), HasSubstr("digraph"));
     if (!find_program("dot"))
         GTEST_SKIP() << "no Graphviz";
     for (const std::string ending : {"svg", "png", "pdf"}) {
         const std::string file = folder / ("modes." + ending);
-        EXPECT_EQ(run_graze("check mems-switch --graph " + file).code, 0);
+        done("check mems-switch --graph " + file);
         EXPECT_GT(contents(file).size(), 1000U);
     }
     EXPECT_EQ(folder.files(), 4U);

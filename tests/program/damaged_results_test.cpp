@@ -81,9 +81,7 @@ TEST(DamagedResultsSlow, AreUsedOrRefusedWithTheNameOfTheFile) {
     const Folder folder;
     std::ofstream(folder / "small.toml") << study;
     const std::string whole = folder / "whole", copy = folder / "copy", file = copy + "/results.sqlite";
-    const Printed made = run_graze(
-        std::vector<std::string>{"run", folder / "small.toml", "--output", whole, "--no-pictures", "--quiet"});
-    ASSERT_EQ(made.code, 0) << made.err;
+    done(std::vector<std::string>{"run", folder / "small.toml", "--output", whole, "--no-pictures", "--quiet"});
     std::filesystem::create_directory(copy);
     const std::vector<std::vector<std::string>> commands{
         {"info", copy},

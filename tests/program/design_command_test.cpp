@@ -52,19 +52,18 @@ struct DesignCommand : public ::testing::Test {
 
 TEST_F(DesignCommand, WritesTablesAPageAndTheDevice) {
     const std::string results = folder / "results";
-    const Printed printed = run_graze({"design", design(small_design()), "--output", results, "--format", "csv"});
-    ASSERT_EQ(printed.code, 0) << printed.err;
-    EXPECT_THAT(printed.out, HasSubstr("trip_value,0.20136621215412"));
-    EXPECT_THAT(printed.out, HasSubstr("class,trips"));
+    const std::string printed = done({"design", design(small_design()), "--output", results, "--format", "csv"});
+    EXPECT_THAT(printed, HasSubstr("trip_value,0.20136621215412"));
+    EXPECT_THAT(printed, HasSubstr("class,trips"));
     for (const char* name :
          {"facts.csv", "sensitivities.csv", "earlier.csv", "trip-times.csv", "curve-delta.csv", "plane-delta-zeta.csv",
           "tuning.csv", "devices.csv", "report.json", "page.svg", "page.pdf", "device.toml", "results.sqlite"})
         EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(results) / name)) << name;
     // Other commands read its files.
-    EXPECT_EQ(run_graze({"check", results + "/device.toml"}).code, 0);
+    done({"check", results + "/device.toml"});
     EXPECT_THAT(run_graze({"grazing", results, "GR1"}).out, HasSubstr("lost"));
     // A second run prints the same.
-    EXPECT_EQ(run_graze({"design", folder / "small.toml", "--output", results, "--format", "csv"}).out, printed.out);
+    EXPECT_EQ(run_graze({"design", folder / "small.toml", "--output", results, "--format", "csv"}).out, printed);
 }
 
 TEST_F(DesignCommand, MeetsWishesOrReportsThemUnmet) {
@@ -85,7 +84,7 @@ TEST_F(DesignCommand, MeetsWishesOrReportsThemUnmet) {
 
 TEST_F(DesignCommand, RemovesTablesOfAnEarlierDesign) {
     const std::string results = folder / "results";
-    ASSERT_EQ(run_graze({"design", design(small_design()), "--output", results, "--quiet"}).code, 0);
+    done({"design", design(small_design()), "--output", results, "--quiet"});
     // Files that graze has not written stay, whatever their names.
     const std::string mine = results + "/curve-mine.csv";
     std::ofstream(mine) << "t,q\n0,1\n";
@@ -98,7 +97,7 @@ TEST_F(DesignCommand, RemovesTablesOfAnEarlierDesign) {
     for (const std::string part :
          {"adjustable = \"delta\"\n", "[dimensions.zeta]\nrange = [0.01, 0.03]\n", "tolerance = \"1%\"\n"})
         other.erase(other.find(part), part.size());
-    ASSERT_EQ(run_graze({"design", design(other), "--output", results, "--quiet", "--no-pictures"}).code, 0);
+    done({"design", design(other), "--output", results, "--quiet", "--no-pictures"});
     for (const char* name :
          {"curve-zeta.csv", "plane-delta-zeta.csv", "tuning.csv", "devices.csv", "page.svg", "page.pdf"})
         EXPECT_FALSE(std::filesystem::exists(std::filesystem::path(results) / name)) << name;

@@ -62,9 +62,7 @@ force = { value = "-k*x", unit = "m/s^2" }
 
 TEST_F(FitCommand, FindsParametersThatOtherCommandsTake) {
     const std::string found = folder / "found.toml";
-    const Printed printed = run_graze(fit(record("a.csv", 1, "m") + " --free c,k=3:1:10 --format csv --save " + found));
-    EXPECT_EQ(printed.code, 0) << printed.err;
-    const Csv table(printed.out);
+    const Csv table(done(fit(record("a.csv", 1, "m") + " --free c,k=3:1:10 --format csv --save " + found)));
     EXPECT_EQ(table.text(0, "name"), "c");
     EXPECT_EQ(table.text(1, "unit"), "1/s^2");
     EXPECT_NEAR(table.number(0, "value"), decay, 1e-9 * decay);
@@ -72,10 +70,8 @@ TEST_F(FitCommand, FindsParametersThatOtherCommandsTake) {
     EXPECT_EQ(table.text(2, "name"), "x(0)");
     EXPECT_NEAR(table.number(2, "value"), displacement, 1e-9 * displacement);
     EXPECT_LE(table.number(0, "low"), table.number(0, "value"));
-    const Printed motion = run_graze(fmt::format("simulate {} --set @{} --from @{} --time 5 --samples 2 --format csv",
-                                                 folder / "swing.toml", found, found));
-    EXPECT_EQ(motion.code, 0) << motion.err;
-    const Csv states(motion.out);
+    const Csv states(done(fmt::format("simulate {} --set @{} --from @{} --time 5 --samples 2 --format csv",
+                                      folder / "swing.toml", found, found)));
     EXPECT_NEAR(states.number(states.rows.size() - 1, "x"),
                 displacement * std::exp(-decay * 5) *
                     (std::cos(frequency * 5) + decay / frequency * std::sin(frequency * 5)),
@@ -119,9 +115,7 @@ TEST_F(FitCommand, LaterAssignmentsReplaceThoseOfAFile) {
         return run_graze("simulate " + model + " --time 1 --samples 2 --format csv --quantity c k " + options);
     };
     const auto values = [&](const std::string& options) {
-        const Printed printed = said(options);
-        EXPECT_EQ(printed.code, 0) << printed.err;
-        const Csv table(printed.out);
+        const Csv table(done(said(options)));
         return std::pair(table.number(0, "c"), table.number(0, "k"));
     };
     EXPECT_EQ(values("--set @" + found), std::pair(0.25, 5.0));
@@ -131,9 +125,7 @@ TEST_F(FitCommand, LaterAssignmentsReplaceThoseOfAFile) {
     for (const auto& [options, message] :
          {std::pair("--set k=6,@" + found, std::string("--set: 'k' is given twice; name the file first")),
           std::pair("--set @" + found + ",k=6,k=7", std::string("--set: 'k' is given twice; leave one"))}) {
-        const Printed printed = said(options);
-        EXPECT_EQ(printed.code, 2);
-        EXPECT_THAT(printed.err, HasSubstr(message));
+        expect_refusal(said(options), message);
     }
 }
 
@@ -160,23 +152,19 @@ TEST_F(FitCommand, ConvertsReadingsAndFindsGains) {
     const std::string a = record("a.csv", 1000, "mm");
     for (const char* options :
          {"--scale x=0.001:m", "--reading x=1000*x", "--reading x=1000*x --gain x=1.2 --known x --start x=1.5"}) {
-        const Printed printed = run_graze(fit(a + " --free c,k --format csv " + options));
-        EXPECT_EQ(printed.code, 0) << options << printed.err;
-        EXPECT_NEAR(Csv(printed.out).number(1, "value"), stiffness, 1e-8 * stiffness) << options;
+        const std::string printed = done(fit(a + " --free c,k --format csv " + options));
+        EXPECT_NEAR(Csv(printed).number(1, "value"), stiffness, 1e-8 * stiffness) << options;
     }
     for (const char* shown : {"outputs", "correlations", "readings"})
-        EXPECT_EQ(run_graze(fit(record("b.csv", 1, "m") + " --free c,k --format json --table " + shown)).code, 0);
+        done(fit(record("b.csv", 1, "m") + " --free c,k --format json --table " + shown));
 }
 
 TEST_F(FitCommand, NeverWritesOverItsModel) {
     const std::string model = folder / "swing.toml", before = contents(model), a = record("a.csv", 1, "m");
     std::filesystem::create_symlink(model, folder / "link.toml");
     for (const std::string& name : {model, folder / "link.toml"})
-        for (const char* option : {" --save ", " --output "}) {
-            const Printed printed = run_graze(fit(a + " --free c,k" + option + name));
-            EXPECT_EQ(printed.code, 2) << option << name;
-            EXPECT_THAT(printed.err, HasSubstr("is the file of an input too"));
-        }
+        for (const char* option : {" --save ", " --output "})
+            expect_refusal(fit(a + " --free c,k" + option + name), "is the file of an input too");
     EXPECT_EQ(contents(model), before);
 }
 
@@ -223,13 +211,8 @@ TEST_F(FitCommand, MistakesAreOneLineWithARemedy) {
         {(folder / "none.csv") + " --free c", "none.csv: the record cannot be read"},
         {a + " --free c --save " + a, "is the file of an input too"},
     };
-    for (const auto& [options, message] : mistakes) {
-        const Printed printed = run_graze(fit(options));
-        EXPECT_EQ(printed.code, 2) << options;
-        EXPECT_THAT(printed.err, HasSubstr(message)) << options;
-        EXPECT_THAT(printed.err, HasSubstr(";")) << options;
-        EXPECT_EQ(std::count(printed.err.begin(), printed.err.end(), '\n'), 1) << printed.err;
-    }
+    for (const auto& [options, message] : mistakes)
+        expect_refusal(fit(options), message);
     EXPECT_EQ(run_graze("identify decrement " + a + " --free c").code, 2);
 }
 

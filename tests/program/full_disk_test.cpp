@@ -75,8 +75,7 @@ TEST_F(FullDisk, RecordsAreWrittenWholeOrNotAtAll) {
 
 TEST_F(FullDisk, ResultsAreExportedWholeOrNotAtAll) {
     const std::string path = folder.write("study.toml", study);
-    const Printed printed = run_graze({"run", path, "--output", folder / "results", "--quiet", "--no-pictures"});
-    ASSERT_EQ(printed.code, 0) << printed.err;
+    done({"run", path, "--output", folder / "results", "--quiet", "--no-pictures"});
     refuse({"export", folder / "results", "--format", "hdf5", "--output", "OUT"}, "x.h5");
     for (const char* format : {"csv", "json", "table"})
         refuse({"export", folder / "results", "--what", "samples", "--format", format, "--output", "OUT"}, "x");

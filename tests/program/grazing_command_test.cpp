@@ -25,22 +25,13 @@ std::string value_of(const Csv& csv, const std::string& quantity) {
 
 struct GrazingCommand : public ::testing::Test {
     std::string run_only(const std::string& study, const std::vector<std::string>& runs) {
-        std::vector<std::string> words{"run", study, "--output", folder / "results", "--quiet"};
-        for (const std::string& run : runs) {
-            words.emplace_back("--only");
-            words.push_back(run);
-        }
-        const Printed printed = run_graze(words);
-        EXPECT_EQ(printed.code, 0) << printed.err;
-        return folder / "results";
+        return testing::run_only(study, runs, folder / "results");
     }
     Csv table(const std::vector<std::string>& words) {
         std::vector<std::string> all{"grazing"};
         all.insert(all.end(), words.begin(), words.end());
         all.insert(all.end(), {"--format", "csv"});
-        const Printed printed = run_graze(all);
-        EXPECT_EQ(printed.code, 0) << printed.err;
-        return Csv(printed.out);
+        return Csv(done(all));
     }
     Folder folder;
 };
@@ -78,36 +69,35 @@ TEST_F(GrazingCommand, PredictsTheLinesOfSimulatedImpacts) {
         for (const char* kind : {"rest", "touch"})
             runs.push_back(fmt::format("{}_{}Hz", kind, line.f));
     const std::string results = run_only("ball-and-shaker", runs);
-    const Printed lines = run_graze({"plot",
-                                     results,
-                                     "--run",
-                                     "impacts",
-                                     "--kind",
-                                     "regression",
-                                     "--y",
-                                     "velocity_jump",
-                                     "--successive",
-                                     "--group",
-                                     "f",
-                                     "--fit",
-                                     "0.01:1",
-                                     "--log",
-                                     "x",
-                                     "--log",
-                                     "y",
-                                     "--output",
-                                     folder / "lines.svg",
-                                     "--data",
-                                     folder / "lines.gp"});
-    ASSERT_EQ(lines.code, 0) << lines.err;
-    std::istringstream rows(lines.out);
+    const std::string lines = done({"plot",
+                                    results,
+                                    "--run",
+                                    "impacts",
+                                    "--kind",
+                                    "regression",
+                                    "--y",
+                                    "velocity_jump",
+                                    "--successive",
+                                    "--group",
+                                    "f",
+                                    "--fit",
+                                    "0.01:1",
+                                    "--log",
+                                    "x",
+                                    "--log",
+                                    "y",
+                                    "--output",
+                                    folder / "lines.svg",
+                                    "--data",
+                                    folder / "lines.gp"});
+    std::istringstream rows(lines);
     std::string row;
     std::getline(rows, row);
     std::getline(rows, row); // names and units
     for (const Line& line : printed) {
         int f = 0, points = 0;
         double slope = 0, slope_error = 0, intercept = 0, intercept_error = 0;
-        ASSERT_TRUE(rows >> f >> slope >> slope_error >> intercept >> intercept_error >> points) << lines.out;
+        ASSERT_TRUE(rows >> f >> slope >> slope_error >> intercept >> intercept_error >> points) << lines;
         EXPECT_EQ(f, line.f);
         EXPECT_GE(points, 50);
         EXPECT_NEAR(slope, line.slope, 0.003) << f;
@@ -134,12 +124,8 @@ TEST_F(GrazingCommand, AcceptsAnyPointWhoseOrbitTouches) {
 
 TEST_F(GrazingCommand, RefusesOrbitsWithoutATouch) {
     const std::string results = run_only("mems-switch", {"free", "no_impact"});
-    const Printed none = run_graze({"grazing", results, "no_impact:EP1"});
-    EXPECT_EQ(none.code, 2);
-    EXPECT_THAT(none.err, HasSubstr("the orbit at EP1 touches nothing; choose a grazing (GR)"));
-    const Printed unknown = run_graze({"grazing", results, "no_impact:GR1", "--parameter", "omegaa"});
-    EXPECT_EQ(unknown.code, 2);
-    EXPECT_THAT(unknown.err, HasSubstr("omega"));
+    expect_refusal({"grazing", results, "no_impact:EP1"}, "the orbit at EP1 touches nothing; choose a grazing (GR)");
+    expect_refusal({"grazing", results, "no_impact:GR1", "--parameter", "omegaa"}, "omega");
     const Printed missing = run_graze({"grazing", results, "no_impact:GR9"});
     EXPECT_EQ(missing.code, 2);
 }
@@ -166,7 +152,7 @@ set = { omega = 0.2 }
 along = { omega = [0.15, 0.3] }
 )toml";
     const std::string results = folder / "rubbing";
-    ASSERT_EQ(run_graze({"run", study, "--output", results, "--quiet"}).code, 0);
+    done({"run", study, "--output", results, "--quiet"});
     const Csv csv = table({results, "GR1", "--verify"});
     EXPECT_EQ(value_of(csv, "map"), "linear");
     EXPECT_EQ(value_of(csv, "border"), "persistence");

@@ -1,4 +1,4 @@
-#include "program/arguments.hpp"
+#include "program/command_line.hpp"
 #include "program/completion.hpp"
 #include "run_graze.hpp"
 
@@ -49,12 +49,6 @@ void expect_among(const std::vector<std::string>& words, const std::vector<std::
         EXPECT_NE(std::find(offered.begin(), offered.end(), word), offered.end()) << word;
 }
 
-struct Declared {
-    Declared() { declare_arguments(app, arguments); }
-    Arguments arguments;
-    CLI::App app{"", "graze"};
-};
-
 } // namespace
 
 TEST(Help, CommandAndOptionPrintTheSame) {
@@ -68,7 +62,7 @@ TEST(Help, CommandAndOptionPrintTheSame) {
 }
 
 TEST(Help, ManualPagesHaveAllOptions) {
-    const Declared declared;
+    const CommandLine declared;
     for (const std::string& command : commands) {
         const std::string page = run_graze("help --man " + command).out;
         EXPECT_THAT(page, StartsWith(".TH GRAZE-"));
@@ -89,10 +83,9 @@ TEST(Help, GroffReadsManualPagesWithoutWarnings) {
     if (printed_by("command -v groff").empty())
         GTEST_SKIP() << "no groff";
     const Folder folder;
-    const Printed written = run_graze("help --write " + (folder / "man1"));
-    EXPECT_EQ(written.code, 0) << written.err;
-    EXPECT_EQ(split(written.out, '\n').size(), commands.size() + 1);
-    for (const std::string& page : split(written.out, '\n'))
+    const std::string written = done("help --write " + (folder / "man1"));
+    EXPECT_EQ(split(written, '\n').size(), commands.size() + 1);
+    for (const std::string& page : split(written, '\n'))
         EXPECT_EQ(printed_by("groff -man -Tutf8 -ww -z " + page + " 2>&1"), "") << page;
     EXPECT_THAT(printed_by("groff -man -Tascii -P-cbu " + (folder / "man1/graze-run.1")),
                 HasSubstr("graze run [STUDY]"));
@@ -101,7 +94,7 @@ TEST(Help, GroffReadsManualPagesWithoutWarnings) {
 TEST(Completion, BashOffersCommandsOptionsAndValues) {
     const Folder folder;
     const std::string script = folder / "graze.bash";
-    ASSERT_EQ(run_graze("completion bash --output " + script).code, 0);
+    done("completion bash --output " + script);
     expect_among(commands, completed(script, "graze "));
     EXPECT_EQ(completed(script, "graze exp"), std::vector<std::string>{"export"});
     EXPECT_EQ(completed(script, "graze run --no-p"), std::vector<std::string>{"--no-pictures"});
@@ -115,7 +108,7 @@ TEST(Completion, BashOffersCommandsOptionsAndValues) {
 }
 
 TEST(Completion, ScriptsOfAllShellsHaveAllOptions) {
-    const Declared declared;
+    const CommandLine declared;
     for (const std::string shell : {"bash", "zsh", "fish"}) {
         const std::string script = run_graze("completion " + shell).out;
         for (const CLI::App* command : declared_commands(declared.app))
@@ -126,21 +119,21 @@ TEST(Completion, ScriptsOfAllShellsHaveAllOptions) {
                     << shell;
         if (!printed_by("command -v " + shell).empty()) {
             const Folder folder;
-            ASSERT_EQ(run_graze("completion " + shell + " --output " + (folder / "script")).code, 0);
+            done("completion " + shell + " --output " + (folder / "script"));
             EXPECT_EQ(printed_by(shell + " -n " + (folder / "script") + " 2>&1"), "") << shell;
         }
     }
 }
 
 TEST(Completion, OffersOnlyAcceptedValues) {
-    const Declared declared;
+    const CommandLine declared;
     std::size_t tried = 0;
     for (const CLI::App* command : declared_commands(declared.app))
         for (const DeclaredOption& option : declared_options(*command))
             for (const std::string& word : choices_for(declared.app, *command, option).words)
                 if (!option.is_argument) {
                     ++tried;
-                    Declared fresh;
+                    CommandLine fresh;
                     CLI::App& app = const_cast<CLI::App&>(command_named(fresh.app, command->get_name()));
                     for (CLI::Option* other : app.get_options())
                         other->required(false);
@@ -165,14 +158,8 @@ TEST(Help, RefusesUnknownCommandsAndShells) {
         {"completion bash --output " + (folder / "no/such/file"), "cannot be written"},
         {"completion bash --format csv", "unknown option '--format'"},
     };
-    for (const auto& [line, message] : mistakes) {
-        const Printed printed = run_graze(line);
-        EXPECT_EQ(printed.code, 2) << line;
-        EXPECT_EQ(printed.out, "") << line;
-        EXPECT_THAT(printed.err, HasSubstr(message)) << line;
-        EXPECT_THAT(printed.err, HasSubstr(";")) << line;
-        EXPECT_EQ(std::count(printed.err.begin(), printed.err.end(), '\n'), 1) << printed.err;
-    }
+    for (const auto& [line, message] : mistakes)
+        expect_refusal(line, message);
 }
 
 } // namespace graze::testing

@@ -143,7 +143,7 @@ TEST_F(Hostile, TextsOfPicturesAreDrawnOrRefused) {
 TEST_F(Hostile, PicturesAreWellFormed) {
     const std::string title = "a ]]> b < & > \xef\xbf\xbe c";
     study("\"s\"", "\"r\"", "\"p\"", quoted(title));
-    ASSERT_EQ(run_graze(std::vector<std::string>{"run", folder / "study.toml", "--output", folder / "out"}).code, 0);
+    done(std::vector<std::string>{"run", folder / "study.toml", "--output", folder / "out"});
     const std::string drawn = contents(folder / "out/p.svg");
     EXPECT_THAT(drawn, HasSubstr("]]&gt; b &lt; &amp;"));
     EXPECT_EQ(drawn.find("]]>"), std::string::npos);
@@ -178,7 +178,7 @@ TEST_F(Hostile, TextForGnuplotStaysText) {
 TEST_F(Hostile, DatabasesAreNeverOverwritten) {
     const std::string results = folder / "out/results.sqlite";
     study("\"s\"");
-    ASSERT_EQ(run_graze("run " + (folder / "study.toml") + " --no-pictures --output " + (folder / "out")).code, 0);
+    done("run " + (folder / "study.toml") + " --no-pictures --output " + (folder / "out"));
     const std::string before = contents(results);
     ASSERT_FALSE(before.empty());
     const std::string soft = folder / "soft.csv", hard = folder / "hard.svg";

@@ -55,9 +55,7 @@ protected:
 };
 
 Csv identified(const std::string& line) {
-    const Printed printed = run_graze("identify " + line + " --format csv");
-    EXPECT_EQ(printed.code, 0) << printed.err;
-    return Csv(printed.out);
+    return Csv(done("identify " + line + " --format csv"));
 }
 
 } // namespace
@@ -123,7 +121,7 @@ TEST_F(IdentifyCommand, FindsTheRestitution) {
     EXPECT_NEAR(table.number(0, "value"), 0.8, 1e-9);
     const std::string picture = folder / "e.svg";
     if (std::system("command -v gnuplot > /dev/null") == 0) {
-        EXPECT_EQ(run_graze("identify restitution " + (folder / "run.csv") + " --plot " + picture).code, 0);
+        done("identify restitution " + (folder / "run.csv") + " --plot " + picture);
         EXPECT_THAT(contents(picture), HasSubstr("</svg>"));
     }
 }
@@ -152,13 +150,8 @@ TEST_F(IdentifyCommand, MistakesAreOneLineWithARemedy) {
         {"decrement " + a + " --peaks 2", "two stand out from the noise, three are needed"},
         {"decrement " + a + " --data d", "--data has no effect without --plot"},
     };
-    for (const auto& [line, message] : mistakes) {
-        const Printed printed = run_graze("identify " + line);
-        EXPECT_EQ(printed.code, 2) << line;
-        EXPECT_THAT(printed.err, HasSubstr(message)) << line;
-        EXPECT_THAT(printed.err, HasSubstr(";")) << line;
-        EXPECT_EQ(std::count(printed.err.begin(), printed.err.end(), '\n'), 1) << printed.err;
-    }
+    for (const auto& [line, message] : mistakes)
+        expect_refusal("identify " + line, message);
 }
 
 /// The command reads the files; the study stores their records in one run and uses them in another.

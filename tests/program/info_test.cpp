@@ -59,9 +59,7 @@ void write_model(const std::string& path) {
 
 TEST_F(Info, CountsPointsOfResults) {
     write_branches();
-    const Printed printed = run_graze({"info", path, "--format", "csv"});
-    EXPECT_EQ(printed.code, 0) << printed.err;
-    const std::string& csv = printed.out;
+    const std::string csv = done({"info", path, "--format", "csv"});
     EXPECT_THAT(csv, StartsWith("item,name,property,value,unit\n"));
     EXPECT_EQ(fact(csv, "file,,kind"), "results");
     EXPECT_EQ(fact(csv, "file,,size"), fmt::format("{}", std::filesystem::file_size(path)));
@@ -74,10 +72,9 @@ TEST_F(Info, CountsPointsOfResults) {
     EXPECT_EQ(fact(csv, "run,alone,version"), "test");
     EXPECT_EQ(fact(csv, "run,alone,model"), "ball");
     EXPECT_EQ(fact(csv, "parameter,first,g"), "2");
-    const Printed text = run_graze({"info", folder / "."});
-    EXPECT_EQ(text.code, 0) << text.err;
-    EXPECT_THAT(text.out, HasSubstr("3 runs, of model ball, by graze test\n"));
-    EXPECT_THAT(text.out, HasSubstr("first   continue  complete      10"));
+    const std::string text = done({"info", folder / "."});
+    EXPECT_THAT(text, HasSubstr("3 runs, of model ball, by graze test\n"));
+    EXPECT_THAT(text, HasSubstr("first   continue  complete      10"));
     EXPECT_TRUE(JsonCheck(run_graze({"info", path, "--format", "json"}).out).valid());
 }
 
@@ -86,7 +83,7 @@ TEST_F(Info, ShowsHowAndWhenResultsWereComputed) {
     std::ofstream(folder / "two.toml") << study;
     const std::string results = folder / "made";
     const std::vector<std::string> run{"run", folder / "two.toml", "--output", results, "--no-pictures", "--quiet"};
-    ASSERT_EQ(run_graze(run).code, 0);
+    done(run);
     const std::string csv = run_graze({"info", results, "--format", "csv"}).out;
     EXPECT_EQ(fact(csv, "study,two,text"), "Two runs.");
     EXPECT_EQ(fact(csv, "run,swept,planned"), "11");
@@ -103,7 +100,7 @@ TEST_F(Info, ShowsHowAndWhenResultsWereComputed) {
     EXPECT_LE(begun, ended);
     EXPECT_EQ(fact(csv, "picture,all,run"), "swept");
     // A second run computes nothing and changes no time.
-    ASSERT_EQ(run_graze(run).code, 0);
+    done(run);
     const std::string again = run_graze({"info", results, "--format", "csv"}).out;
     for (const char* one : {"run,swept,begun", "run,swept,ended", "run,swept,seconds", "run,thrown,seconds"})
         EXPECT_EQ(fact(again, one), fact(csv, one));
@@ -118,9 +115,8 @@ TEST_F(Info, ShowsHowAndWhenResultsWereComputed) {
 TEST_F(Info, ListsRunsWithinAHundredColumns) {
     for (const char* name : {"microactuator", "microbeam", "electromagnetic-testbed", "mems-switch",
                              "testbed-experiment", "ball-and-shaker"}) {
-        const Printed printed = run_graze(std::vector<std::string>{"info", name});
-        EXPECT_EQ(printed.code, 0) << name << printed.err;
-        std::istringstream text(printed.out);
+        const std::string printed = done(std::vector<std::string>{"info", name});
+        std::istringstream text(printed);
         for (std::string line; std::getline(text, line);)
             EXPECT_LE(line.size(), 110U) << name << ": " << line; // some letters have two bytes
     }
@@ -129,9 +125,7 @@ TEST_F(Info, ListsRunsWithinAHundredColumns) {
 TEST_F(Info, RefusesEmptyAndSpecialFiles) {
     const Folder begun;
     const auto refused = [&](const std::string& name, const std::string& words) {
-        const Printed printed = run_graze(std::vector<std::string>{"info", name});
-        EXPECT_EQ(printed.code, exit_bad_input) << name;
-        EXPECT_THAT(printed.err, HasSubstr(words)) << name;
+        expect_refusal(std::vector<std::string>{"info", name}, words);
     };
     std::ofstream(begun / "results.sqlite");
     refused(std::filesystem::path(begun / "results.sqlite").parent_path().string(),
@@ -157,9 +151,8 @@ TEST_F(Info, DescribesModelsAndStudies) {
     EXPECT_EQ(fact(two, "run,swept,planned"), "11");
     EXPECT_EQ(fact(two, "run,thrown,model"), "rest");
     EXPECT_EQ(fact(two, "setting,swept,kind"), "sweep");
-    const Printed shipped = run_graze("info mems-switch");
-    EXPECT_EQ(shipped.code, 0);
-    EXPECT_THAT(shipped.out, StartsWith("model and study, of graze 0."));
+    const std::string shipped = done("info mems-switch");
+    EXPECT_THAT(shipped, StartsWith("model and study, of graze 0."));
     EXPECT_THAT(run_graze("info bouncing-ball").out, StartsWith("model, of graze 0."));
     EXPECT_EQ(run_graze({"info", "bouncing-ball", "--output", folder / "told.txt"}).out, "");
     EXPECT_THAT(contents(folder / "told.txt"), StartsWith("model, of graze"));
@@ -178,14 +171,8 @@ TEST_F(Info, RefusesUnreadableInputs) {
         {{"info", folder / "model.toml", "--format", "xml"}, "choose table, csv or json"},
         {{"info", folder / "model.toml", "--output", folder / "model.toml"}, "choose another name"},
     };
-    for (const auto& [words, message] : mistakes) {
-        const Printed printed = run_graze(words);
-        EXPECT_EQ(printed.code, 2) << message;
-        EXPECT_EQ(printed.out, "");
-        EXPECT_THAT(printed.err, HasSubstr(message));
-        EXPECT_THAT(printed.err, HasSubstr(";"));
-        EXPECT_EQ(std::count(printed.err.begin(), printed.err.end(), '\n'), 1) << printed.err;
-    }
+    for (const auto& [words, message] : mistakes)
+        expect_refusal(words, message);
 }
 
 } // namespace graze::testing

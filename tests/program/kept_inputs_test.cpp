@@ -2,7 +2,7 @@
 
 #include "graze/base/input_error.hpp"
 #include "places.hpp"
-#include "program/arguments.hpp"
+#include "program/command_line.hpp"
 #include "program/output_file.hpp"
 #include "run_graze.hpp"
 
@@ -21,10 +21,8 @@ namespace {
 
 /// Calls `work` with every declared option, and the command that it belongs to.
 void for_each_option(const std::function<void(const CLI::App&, const CLI::Option&)>& work) {
-    Arguments arguments;
-    CLI::App app("", "graze");
-    declare_arguments(app, arguments);
-    for (const CLI::App* command : app.get_subcommands({}))
+    const CommandLine line;
+    for (const CLI::App* command : line.app.get_subcommands({}))
         for (const CLI::Option* option : command->get_options())
             if (!option->get_positional() && !option->get_lnames().empty())
                 work(*command, *option);
@@ -61,9 +59,7 @@ TEST(KeptInputs, NoCommandReplacesAFileThatItReads) {
             return;
         for (const std::string& output : {input, link, hard, roundabout}) {
             const std::vector<std::string> words = command_line(command, option, input, output);
-            const Printed printed = run_graze(words);
-            EXPECT_EQ(printed.code, 2) << ::testing::PrintToString(words);
-            EXPECT_THAT(printed.err, HasSubstr(" is the file of ")) << ::testing::PrintToString(words);
+            expect_refusal(words, " is the file of ");
             EXPECT_EQ(contents(input), "t [s], x [m]\n0, 1\n1, 2\n");
             ++tried;
         }
@@ -141,7 +137,7 @@ TEST(KeptInputs, NoOutputInAFolderReplacesAnInput) {
 TEST(KeptInputs, ExportsOfRunsReplaceNoResults) {
     const Folder folder;
     const std::string study = folder.write("s.toml", small_study), results = folder / "r.csv";
-    ASSERT_EQ(run_graze({"run", study, "--output", folder / "out", "--quiet", "--no-pictures"}).code, 0);
+    done({"run", study, "--output", folder / "out", "--quiet", "--no-pictures"});
     std::filesystem::copy_file(folder / "out/results.sqlite", results);
     const std::string before = contents(results);
     EXPECT_EQ(run_graze({"export", results, "--format", "csv", "--output", folder.path()}).code, 2);
@@ -151,9 +147,7 @@ TEST(KeptInputs, ExportsOfRunsReplaceNoResults) {
 TEST(KeptInputs, TwoOutputsMustBeDifferentFiles) {
     const Folder folder;
     const std::string path = folder / "one.svg";
-    const Printed printed = run_graze({"simulate", "bouncing-ball", "--time", "1", "--plot", path, "--data", path});
-    EXPECT_EQ(printed.code, 2);
-    EXPECT_THAT(printed.err, HasSubstr("is the file of --"));
+    expect_refusal({"simulate", "bouncing-ball", "--time", "1", "--plot", path, "--data", path}, "is the file of --");
     EXPECT_EQ(folder.files(), 0U);
 }
 
@@ -161,12 +155,9 @@ TEST(KeptInputs, FilesInOptionValuesAreInputs) {
     const Folder folder;
     const std::string values = folder / "values.toml";
     write_file(values, "[set]\ne = 0.5\n");
-    for (const char* option : {"--set", "--from"}) {
-        const Printed printed =
-            run_graze({"simulate", "bouncing-ball", option, "@" + values, "--time", "1", "--output", values});
-        EXPECT_EQ(printed.code, 2);
-        EXPECT_THAT(printed.err, HasSubstr("is the file of " + std::string(option) + " too"));
-    }
+    for (const char* option : {"--set", "--from"})
+        expect_refusal({"simulate", "bouncing-ball", option, "@" + values, "--time", "1", "--output", values},
+                       "is the file of " + std::string(option) + " too");
     EXPECT_EQ(contents(values), "[set]\ne = 0.5\n");
 }
 

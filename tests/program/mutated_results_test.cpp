@@ -31,7 +31,7 @@ const std::string& whole_file() {
     static const std::string whole = [] {
         const Folder folder;
         const std::string path = folder.write("study.toml", study);
-        EXPECT_EQ(run_graze({"run", path, "--output", folder / "out", "--quiet", "--no-pictures"}).code, 0);
+        done({"run", path, "--output", folder / "out", "--quiet", "--no-pictures"});
         return contents(folder / "out/results.sqlite");
     }();
     return whole;

@@ -1,4 +1,4 @@
-#include "program/arguments.hpp"
+#include "program/command_line.hpp"
 #include "run_graze.hpp"
 
 #include <CLI/App.hpp>
@@ -60,11 +60,9 @@ const std::set<std::string>& judged_by_commands() {
 
 /// Every option whose value is a number or one of a list of words refuses other values before files are read or made.
 TEST(OptionValues, NumbersAndWordsAreCheckedBeforeAnyWork) {
-    Arguments declared;
-    CLI::App app("", "graze");
-    declare_arguments(app, declared);
+    const CommandLine line;
     int tried = 0;
-    for (const CLI::App* command : app.get_subcommands({}))
+    for (const CLI::App* command : line.app.get_subcommands({}))
         for (const CLI::Option* option : command->get_options()) {
             if (option->get_positional() || option->get_lnames().empty())
                 continue;
@@ -82,12 +80,7 @@ TEST(OptionValues, NumbersAndWordsAreCheckedBeforeAnyWork) {
                     if (one->get_positional())
                         words.emplace_back("nothing-there");
                 words.push_back("--" + option->get_lnames().front() + "=" + value);
-                const Printed printed = run_graze(words);
-                EXPECT_EQ(printed.code, 2) << ::testing::PrintToString(words);
-                EXPECT_EQ(printed.out, "");
-                EXPECT_THAT(printed.err, HasSubstr("--" + option->get_lnames().front()))
-                    << ::testing::PrintToString(words);
-                EXPECT_EQ(std::count(printed.err.begin(), printed.err.end(), '\n'), 1);
+                expect_refusal(words, "--" + option->get_lnames().front());
                 ++tried;
             }
         }
@@ -99,9 +92,7 @@ TEST(OptionValues, ADashIsNoFileName) {
     for (const Words& words : {Words{"models", "impact-oscillator", "--write", "-"},
                                Words{"info", "x", "--output", "-"}, Words{"simulate", "bouncing-ball", "--output=-"},
                                Words{"run", "x", "--output", "-"}, Words{"completion", "bash", "--output", "-"}}) {
-        const Printed run = run_graze(words);
-        EXPECT_EQ(run.code, 2) << words.front();
-        EXPECT_THAT(run.err, HasSubstr("'-' is no name of a file or folder; with")) << words.front();
+        expect_refusal(words, "'-' is no name of a file or folder; with");
         EXPECT_FALSE(std::filesystem::exists("-"));
     }
 }

@@ -340,9 +340,8 @@ TEST_F(PlotResults, WritesEveryFormat) {
     write_sweep();
     for (const std::string ending : {"svg", "png", "pdf"}) {
         const std::string picture = folder / ("picture." + ending);
-        const Printed run = run_graze({"plot", path, "--output", picture, "--data", folder / "picture.gp"});
-        EXPECT_EQ(run.code, 0) << run.err;
-        EXPECT_EQ(run.out, picture + "\n");
+        const std::string run = done({"plot", path, "--output", picture, "--data", folder / "picture.gp"});
+        EXPECT_EQ(run, picture + "\n");
         EXPECT_GT(contents(picture).size(), 3000U);
         EXPECT_LT(contents(picture).size(), 2000000U);
     }
@@ -354,9 +353,8 @@ TEST_F(PlotResults, WritesTextForLatexAndItsLinesAsPdf) {
     if (!find_program("gnuplot"))
         GTEST_SKIP() << "no gnuplot";
     write_sweep();
-    const Printed run = run_graze({"plot", path, "--y", "x", "--x-label", "50% of $V_0$", "--output",
-                                   folder / "picture.tex", "--data", folder / "picture.gp", "--title", "where a = 1"});
-    ASSERT_EQ(run.code, 0) << run.err;
+    done({"plot", path, "--y", "x", "--x-label", "50% of $V_0$", "--output", folder / "picture.tex", "--data",
+          folder / "picture.gp", "--title", "where a = 1"});
     const std::string text = contents(folder / "picture.tex"), commands = contents(folder / "picture.gp");
     EXPECT_THAT(commands, HasSubstr("set terminal cairolatex pdf input size"));
     EXPECT_THAT(commands, HasSubstr("50\\\\% of \\\\$V\\\\_0\\\\$"));

@@ -25,9 +25,8 @@ TEST_F(Plot, DrawsEveryShippedModelWithoutATable) {
          {"ball-and-shaker", "bouncing-ball", "dry-friction-oscillator", "electromagnetic-testbed",
           "impact-microactuator", "impact-oscillator", "impact-oscillator-two-stops", "mems-switch", "microbeam"}) {
         const std::string file = folder / (model + ".svg");
-        const Printed run = run_graze("simulate " + model + " --periods 3 --quiet --plot " + file);
-        EXPECT_EQ(run.code, 0) << model << run.err;
-        EXPECT_EQ(run.out, "") << "a picture alone comes without a table";
+        const std::string run = done("simulate " + model + " --periods 3 --quiet --plot " + file);
+        EXPECT_EQ(run, "") << "a picture alone comes without a table";
         const std::string picture = contents(file);
         EXPECT_THAT(picture, HasSubstr("</svg>"));
         EXPECT_GT(picture.size(), 5000U);
@@ -37,11 +36,10 @@ TEST_F(Plot, DrawsEveryShippedModelWithoutATable) {
 
 TEST_F(Plot, OtherFormatsComeWithATableIfAsked) {
     for (const std::string ending : {"png", "pdf"}) {
-        const Printed run =
-            run_graze("simulate mems-switch --section phase0 --format csv --portrait q,v theta,energy --plot " +
-                      (folder / ("switch." + ending)));
-        EXPECT_EQ(run.code, 0) << run.err;
-        EXPECT_EQ(header(run.out), "section,time,direction,mode,q,v,theta");
+        const std::string run =
+            done("simulate mems-switch --section phase0 --format csv --portrait q,v theta,energy --plot " +
+                 (folder / ("switch." + ending)));
+        EXPECT_EQ(header(run), "section,time,direction,mode,q,v,theta");
         EXPECT_GT(contents(folder / ("switch." + ending)).size(), 5000U);
     }
 }
@@ -52,8 +50,7 @@ TEST_F(Plot, NeverRunsTextOfAModel) {
     std::ofstream(model) << ("[states]\nx = { initial = 1, unit = \"" + text + "\", text = \"" + text +
                              "\" }\ny = 0\n[modes.only.rates]\nx = \"y\"\ny = \"-x\"\n");
     const std::string picture = folder / "picture.svg";
-    const Printed run = run_graze("simulate " + model + " --time 6 --plot " + picture);
-    EXPECT_EQ(run.code, 0) << run.err;
+    done("simulate " + model + " --time 6 --plot " + picture);
     EXPECT_FALSE(std::filesystem::exists(trace));
     EXPECT_THAT(contents(picture), HasSubstr("`echo"));
     EXPECT_THAT(contents(picture), HasSubstr("#1"));
@@ -61,7 +58,7 @@ TEST_F(Plot, NeverRunsTextOfAModel) {
 
 TEST_F(Plot, KeptCommandsDrawTheSamePicture) {
     const std::string picture = folder / "it's_mine.svg", commands = folder / "mine.gp";
-    EXPECT_EQ(run_graze("simulate mems-switch --quantity q gap --plot " + picture + " --data " + commands).code, 0);
+    done("simulate mems-switch --quantity q gap --plot " + picture + " --data " + commands);
     const std::string first = contents(picture);
     std::filesystem::remove(picture);
     const ProcessResult again = run_process({*find_program("gnuplot"), commands}, "");
@@ -71,9 +68,7 @@ TEST_F(Plot, KeptCommandsDrawTheSamePicture) {
 }
 
 TEST_F(Plot, IsRefusedBeforeTheRunIfItCannotBeWritten) {
-    const Printed run = run_graze("simulate mems-switch --plot " + (folder / "no/such/folder.svg"));
-    EXPECT_EQ(run.code, exit_bad_input);
-    EXPECT_THAT(run.err, HasSubstr("cannot be written"));
+    expect_refusal("simulate mems-switch --plot " + (folder / "no/such/folder.svg"), "cannot be written");
 }
 
 } // namespace graze::testing

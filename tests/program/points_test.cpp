@@ -27,9 +27,8 @@ std::string unquoted(const std::string& csv) {
 
 TEST_F(Points, ListsSpecialPointsOfABranch) {
     write_branches();
-    const Printed printed = run_graze({"points", path, "--run", "first", "--format", "csv"});
-    EXPECT_EQ(printed.code, 0) << printed.err;
-    const Csv csv(unquoted(printed.out));
+    const std::string printed = done({"points", path, "--run", "first", "--format", "csv"});
+    const Csv csv(unquoted(printed));
     ASSERT_EQ(csv.rows.size(), 6U);
     EXPECT_EQ(csv.text(1, "label"), "SN1");
     EXPECT_EQ(csv.text(1, "type"), "SN");
@@ -123,17 +122,16 @@ TEST_F(Points, ShowsOtherParametersWhereTheyDiffer) {
 
 TEST_F(Points, TableHasTheImportantColumns) {
     write_branches();
-    const Printed printed = run_graze({"points", path, "--run", "first"});
-    EXPECT_EQ(printed.code, 0) << printed.err;
-    for (const std::string& line : split(printed.out, '\n'))
+    const std::string printed = done({"points", path, "--run", "first"});
+    for (const std::string& line : split(printed, '\n'))
         EXPECT_LE(line.size(), 100U) << line;
-    EXPECT_THAT(printed.out, HasSubstr("physical"));
-    EXPECT_THAT(printed.out, HasSubstr("floor"));
-    EXPECT_THAT(printed.out, Not(HasSubstr("residual")));
-    EXPECT_THAT(printed.out, Not(HasSubstr("located")));
+    EXPECT_THAT(printed, HasSubstr("physical"));
+    EXPECT_THAT(printed, HasSubstr("floor"));
+    EXPECT_THAT(printed, Not(HasSubstr("residual")));
+    EXPECT_THAT(printed, Not(HasSubstr("located")));
     EXPECT_THAT(run_graze({"points", path, "--run", "second"}).out, HasSubstr("located"));
     EXPECT_TRUE(JsonCheck(run_graze({"points", path, "--format", "json"}).out).valid());
-    EXPECT_EQ(run_graze({"points", path, "--format", "csv", "--output", folder / "points.csv"}).code, 0);
+    done({"points", path, "--format", "csv", "--output", folder / "points.csv"});
     EXPECT_THAT(contents(folder / "points.csv"), StartsWith("run,label,"));
 }
 
@@ -194,10 +192,7 @@ TEST_F(Points, ExportRefusesUnknownLabelsAndDirections) {
     for (const std::string words :
          {"--run first --label GR7", "--run first --label Fold", "--run swept --label periodc",
           "--run first --direction sideways", "--what multipliers --label x"}) {
-        const Printed printed = run_graze("export " + path + " " + words);
-        EXPECT_EQ(printed.code, 2) << words;
-        EXPECT_THAT(printed.err, HasSubstr("no point has the")) << words;
-        EXPECT_EQ(std::count(printed.err.begin(), printed.err.end(), '\n'), 1) << printed.err;
+        expect_refusal("export " + path + " " + words, "no point has the");
     }
     // Valid labels and directions that no point has select no points.
     for (const std::string words : {"--run first --label NS", "--run first --label GR1", "--run swept --label chaotic",
@@ -219,9 +214,8 @@ TEST_F(Points, ExportNamesTheTablesOfARun) {
     EXPECT_THAT(said({"--run", "swept", "--what", "segments"}), HasSubstr("export its samples"));
     EXPECT_THAT(said({"--run", "first,swept"}), HasSubstr("export one of them at a time"));
     EXPECT_THAT(said({"--what", "pints"}), HasSubstr("did you mean 'points'?"));
-    EXPECT_EQ(run_graze({"export", path, "--what", "samples"}).code, 0);
-    const Printed hdf5 = run_graze({"export", path, "--format", "hdf5", "--output", folder / "all.h5"});
-    EXPECT_EQ(hdf5.code, 0) << hdf5.err;
+    done({"export", path, "--what", "samples"});
+    done({"export", path, "--format", "hdf5", "--output", folder / "all.h5"});
     EXPECT_GT(std::filesystem::file_size(folder / "all.h5"), 10'000U);
 }
 

@@ -39,9 +39,7 @@ TEST(Promises, TextFilesHaveASizeLimit) {
     std::filesystem::resize_file(table, (std::uintmax_t{256} << 20) + 1);
     for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
              {"check", model}, {"run", model}, {"design", model}, {"acquire", model}, {"layout", model}}) {
-        const Printed printed = run_graze(words);
-        EXPECT_EQ(printed.code, 2) << words.front();
-        EXPECT_THAT(printed.err, HasSubstr("16777216 bytes")) << words.front();
+        expect_refusal(words, "16777216 bytes");
     }
     const std::string study = folder.write("s.toml", "name = \"s\"\nmodel = \"bouncing-ball\"\n[runs.r]\nkind = "
                                                      "\"orbit\"\ntable = \"o.csv\"\n");
@@ -70,9 +68,7 @@ TEST(Promises, TablesOfRecordsHaveASizeLimit) {
     for (const auto& [options, problem] : cases) {
         std::vector<std::string> words{"record", path};
         words.insert(words.end(), options.begin(), options.end());
-        const Printed printed = run_graze(words);
-        EXPECT_EQ(printed.code, 2) << printed.err;
-        EXPECT_THAT(printed.err, HasSubstr(problem));
+        expect_refusal(words, problem);
     }
 }
 

@@ -39,9 +39,7 @@ protected:
 } // namespace
 
 TEST_F(RecordCommand, DescribesChannels) {
-    const Printed printed = run_graze("record " + file("run.csv") + " --format csv");
-    ASSERT_EQ(printed.code, 0) << printed.err;
-    const Csv table(printed.out);
+    const Csv table(done("record " + file("run.csv") + " --format csv"));
     ASSERT_EQ(table.rows.size(), 2U);
     EXPECT_EQ(table.text(1, "channel"), "v");
     EXPECT_EQ(table.text(1, "unit"), "mm/s");
@@ -52,10 +50,8 @@ TEST_F(RecordCommand, DescribesChannels) {
 }
 
 TEST_F(RecordCommand, SectionsOfSeveralRecordsHaveTheirAmplitudes) {
-    const Printed printed = run_graze("record " + file("one.csv", 2) + " " + file("two.csv", 3) +
-                                      " --what sections --reference V --phase 0.25 --negate V --format csv");
-    ASSERT_EQ(printed.code, 0) << printed.err;
-    const Csv table(printed.out);
+    const Csv table(done("record " + file("one.csv", 2) + " " + file("two.csv", 3) +
+                         " --what sections --reference V --phase 0.25 --negate V --format csv"));
     ASSERT_EQ(table.rows.size(), 20U); // five periods, two records, with images
     EXPECT_NEAR(table.number(0, "V_amplitude"), 2, 1e-5);
     EXPECT_NEAR(table.number(19, "V_amplitude"), 3, 1e-5);
@@ -91,8 +87,7 @@ TEST_F(RecordCommand, TablesFollowTheClosedForm) {
 
 TEST_F(RecordCommand, WritesAProcessedRecord) {
     const std::string run = file("run.csv"), to = folder / "slow.h5";
-    const Printed printed = run_graze("record " + run + " --scale V=1e3-5:mV --every 5 --derivative V --write " + to);
-    ASSERT_EQ(printed.code, 0) << printed.err;
+    done("record " + run + " --scale V=1e3-5:mV --every 5 --derivative V --write " + to);
     const Csv table(run_graze("record " + to + " --format csv").out);
     ASSERT_EQ(table.rows.size(), 4U);
     EXPECT_EQ(table.text(0, "unit"), "mV");
@@ -158,8 +153,7 @@ TEST_F(RecordCommand, DrawsTables) {
         GTEST_SKIP() << "no gnuplot";
     const std::string run = file("run.csv"), picture = folder / "picture.svg";
     for (const std::string what : {"channels", "sections --reference V", "impacts --channel v"}) {
-        const Printed printed = run_graze("record " + run + " --what " + what + " --plot " + picture);
-        EXPECT_EQ(printed.code, 0) << printed.err;
+        done("record " + run + " --what " + what + " --plot " + picture);
         EXPECT_THAT(contents(picture), HasSubstr("</svg>"));
         std::filesystem::remove(picture);
     }
@@ -180,9 +174,7 @@ TEST_F(RecordCommand, RefusesToDrawExtremeNumbers) {
             at = end + 1;
         }
         std::ofstream(folder / "large.csv") << text;
-        const Printed printed = run_graze("record " + (folder / "large.csv") + " --what samples --plot " + picture);
-        EXPECT_EQ(printed.code, 2) << values;
-        EXPECT_THAT(printed.err, HasSubstr("the axis 'v' from")) << values;
+        expect_refusal("record " + (folder / "large.csv") + " --what samples --plot " + picture, "the axis 'v' from");
         EXPECT_FALSE(std::filesystem::exists(picture));
     }
     EXPECT_EQ(folder.files(), 1U) << "parts of pictures are left";
@@ -218,13 +210,8 @@ TEST_F(RecordCommand, MistakesAreOneLineWithARemedy) {
         {folder / "two.csv", "two.csv:1:1: this text is in UTF-16"},
         {run + " --columns t,v", "the file has a header of its own"},
     };
-    for (const auto& [line, message] : mistakes) {
-        const Printed printed = run_graze("record " + line);
-        EXPECT_EQ(printed.code, 2) << line;
-        EXPECT_THAT(printed.err, HasSubstr(message)) << line;
-        EXPECT_THAT(printed.err, HasSubstr(";")) << line;
-        EXPECT_EQ(std::count(printed.err.begin(), printed.err.end(), '\n'), 1) << printed.err;
-    }
+    for (const auto& [line, message] : mistakes)
+        expect_refusal("record " + line, message);
 }
 
 } // namespace graze::testing

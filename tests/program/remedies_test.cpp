@@ -88,9 +88,8 @@ std::map<std::string, std::string> commands() {
     for (const char* name : {"models", "check",   "simulate",  "run",    "points", "orbit",  "grazing",
                              "trip",   "ladder",  "tolerance", "design", "layout", "record", "identify",
                              "bench",  "acquire", "export",    "plot",   "info",   "help",   "completion"}) {
-        const Printed help = run_graze(std::string(name) + " --help");
-        EXPECT_EQ(help.code, 0) << name;
-        result[name] = help.out;
+        const std::string help = done(std::string(name) + " --help");
+        result[name] = help;
     }
     return result;
 }

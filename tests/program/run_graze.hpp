@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sstream>
 #include <string>
@@ -27,13 +28,55 @@ inline Printed run_graze(const std::vector<std::string>& arguments) {
     return {code, out.str(), err.str()};
 }
 
-/// Runs the program with the words of a line; no argument contains blanks.
-inline Printed run_graze(const std::string& line) {
+/// The words of a line; no word contains blanks.
+inline std::vector<std::string> words_of(const std::string& line) {
     std::istringstream stream(line);
     std::vector<std::string> words;
     for (std::string word; stream >> word;)
         words.push_back(word);
-    return run_graze(words);
+    return words;
+}
+inline Printed run_graze(const std::string& line) {
+    return run_graze(words_of(line));
+}
+
+/// The program must have succeeded. @return standard output
+inline std::string done(const Printed& printed) {
+    EXPECT_EQ(printed.code, exit_success) << printed.err;
+    return printed.out;
+}
+inline std::string done(const std::vector<std::string>& arguments) {
+    SCOPED_TRACE(::testing::PrintToString(arguments));
+    return done(run_graze(arguments));
+}
+inline std::string done(const std::string& line) {
+    return done(words_of(line));
+}
+
+/// The program must have refused its arguments, in one line that contains this message and a remedy.
+inline void expect_refusal(const Printed& printed, const std::string& message) {
+    EXPECT_EQ(printed.code, exit_bad_input) << printed.err;
+    EXPECT_EQ(printed.out, "");
+    EXPECT_TRUE(printed.err.starts_with("graze: ")) << printed.err;
+    EXPECT_THAT(printed.err, ::testing::HasSubstr(message));
+    EXPECT_THAT(printed.err, ::testing::HasSubstr("; "));
+    EXPECT_EQ(std::count(printed.err.begin(), printed.err.end(), '\n'), 1) << printed.err;
+}
+inline void expect_refusal(const std::vector<std::string>& arguments, const std::string& message) {
+    SCOPED_TRACE(::testing::PrintToString(arguments));
+    expect_refusal(run_graze(arguments), message);
+}
+inline void expect_refusal(const std::string& line, const std::string& message) {
+    expect_refusal(words_of(line), message);
+}
+
+/// Computes these runs of a study, and those that they start from. @return the folder of the results
+inline std::string run_only(const std::string& study, const std::vector<std::string>& runs, const std::string& folder) {
+    std::vector<std::string> words{"run", study, "--output", folder, "--quiet"};
+    for (const std::string& run : runs)
+        words.insert(words.end(), {"--only", run});
+    done(words);
+    return folder;
 }
 
 inline std::vector<std::string> split(const std::string& text, char separator) {

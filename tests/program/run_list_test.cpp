@@ -57,11 +57,10 @@ sample = { top = { maxima = "h" } }
 } // namespace
 
 TEST_F(RunList, HasARemedyForChattering) {
-    const Printed printed = list("table");
-    EXPECT_EQ(printed.code, 0) << printed.err;
-    EXPECT_THAT(printed.out, HasSubstr("chattering 1"));
-    EXPECT_THAT(printed.out, HasSubstr("point 0: "));
-    EXPECT_THAT(printed.out, HasSubstr("give it `chatter = "));
+    const std::string printed = done(list("table"));
+    EXPECT_THAT(printed, HasSubstr("chattering 1"));
+    EXPECT_THAT(printed, HasSubstr("point 0: "));
+    EXPECT_THAT(printed, HasSubstr("give it `chatter = "));
 }
 
 TEST_F(RunList, FitsATerminalOfAHundredColumns) {

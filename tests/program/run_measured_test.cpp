@@ -9,11 +9,10 @@
 #include <filesystem>
 #include <string>
 
-namespace graze {
+namespace graze::testing {
 namespace {
 
 using ::testing::HasSubstr;
-using testing::run_graze;
 
 const char* const study = R"(name = "releases"
 model = "electromagnetic-testbed"
@@ -34,9 +33,9 @@ gives = { natural_frequency = "w0", damping_ratio = "zeta" }
 )";
 
 TEST(RunMeasured, EstimatesArePrintedStoredAndExported) {
-    const testing::TemporaryFolder folder;
+    const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", study);
-    const testing::Printed run = run_graze({"run", file, "--output", folder / "out", "--no-pictures"});
+    const Printed run = run_graze({"run", file, "--output", folder / "out", "--no-pictures"});
     EXPECT_EQ(run.code, 0) << run.err;
     EXPECT_THAT(run.out, HasSubstr("ended 3"));
     EXPECT_THAT(run.out, HasSubstr("w0 = 90.0")); // the value of the bench, with an error of about 0.01
@@ -44,31 +43,25 @@ TEST(RunMeasured, EstimatesArePrintedStoredAndExported) {
                            "SELECT name FROM estimates WHERE low < 90 AND high > 90 AND name = 'w0'"})
                     .out,
                 HasSubstr("w0"));
-    const testing::Printed hdf5 =
-        run_graze({"export", folder / "out", "--format", "hdf5", "--output", folder / "out.h5"});
-    EXPECT_EQ(hdf5.code, 0) << hdf5.err;
-    const testing::Printed info = run_graze({"info", folder / "out"});
-    EXPECT_EQ(info.code, 0) << info.err;
-    EXPECT_THAT(info.out, HasSubstr("identify"));
+    done({"export", folder / "out", "--format", "hdf5", "--output", folder / "out.h5"});
+    const std::string info = done({"info", folder / "out"});
+    EXPECT_THAT(info, HasSubstr("identify"));
     // The result file alone is enough to repeat everything.
-    const testing::Printed again = run_graze({"run", folder / "out", "--output", folder / "again", "--no-pictures"});
-    EXPECT_EQ(again.code, 0) << again.err;
-    EXPECT_THAT(again.out, HasSubstr("w0 = 90.0"));
+    const std::string again = done({"run", folder / "out", "--output", folder / "again", "--no-pictures"});
+    EXPECT_THAT(again, HasSubstr("w0 = 90.0"));
 }
 
 TEST(RunMeasured, UnreadableRecordsAreRefused) {
-    const testing::TemporaryFolder folder;
+    const TemporaryFolder folder;
     folder.write("a.csv", "t,V\n0,1\n1,one\n");
     const std::string head = "name = \"s\"\n[runs.a]\nkind = \"record\"\n";
-    const testing::Printed outside =
-        run_graze({"run", folder.write("o.toml", head + "files = \"../a.csv\"\n"), "--output", folder / "o"});
-    EXPECT_EQ(outside.code, 2);
-    EXPECT_THAT(outside.err, HasSubstr("o.toml:4:10: the record '../a.csv' would be outside"));
-    const testing::Printed wrong =
+    expect_refusal({"run", folder.write("o.toml", head + "files = \"../a.csv\"\n"), "--output", folder / "o"},
+                   "o.toml:4:10: the record '../a.csv' would be outside");
+    const Printed wrong =
         run_graze({"run", folder.write("w.toml", head + "files = \"a.csv\"\n"), "--output", folder / "w"});
     EXPECT_NE(wrong.code, 0);
     EXPECT_THAT(wrong.err, HasSubstr("a.csv:3:"));
 }
 
 } // namespace
-} // namespace graze
+} // namespace graze::testing

@@ -1,11 +1,9 @@
-#include "places.hpp"
 #include "program/run_graze.hpp"
+#include "program/started_process.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fcntl.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -19,11 +17,10 @@
 #include <sstream>
 #include <thread>
 
-namespace graze {
+namespace graze::testing {
 namespace {
 
 using ::testing::HasSubstr;
-using testing::run_graze;
 using ::testing::StartsWith;
 
 const char* const study = R"(
@@ -44,17 +41,9 @@ cycles = 60
 
 class RunStudyTest : public ::testing::Test {
 protected:
-    void SetUp() override {
-        folder_ =
-            std::filesystem::temp_directory_path() / ("graze-study-" + std::to_string(getpid()) + "-" +
-                                                      ::testing::UnitTest::GetInstance()->current_test_info()->name());
-        std::filesystem::remove_all(folder_);
-        std::filesystem::create_directories(folder_);
-        std::ofstream(path("study.toml")) << study;
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-    std::string path(const std::string& name) const { return (folder_ / name).string(); }
-    testing::Printed study_run(const std::string& output) {
+    RunStudyTest() { folder.write("study.toml", study); }
+    std::string path(const std::string& name) const { return folder / name; }
+    Printed study_run(const std::string& output) {
         return run_graze({"run", path("study.toml"), "--output", path(output), "--no-pictures", "--format", "csv"});
     }
     std::string everything(const std::string& output) {
@@ -64,23 +53,19 @@ protected:
                 all += run_graze({"export", path(output), "--run", run, "--what", what, "--format", "csv"}).out;
         return all + run_graze({"export", path(output), "--what", "multipliers", "--format", "csv"}).out;
     }
-    std::filesystem::path folder_;
+    const Folder folder;
 };
 
 TEST_F(RunStudyTest, IsComputedOnceAndExported) {
-    const testing::Printed first = study_run("a");
-    EXPECT_EQ(first.code, 0) << first.err;
-    EXPECT_THAT(first.out, HasSubstr("sweep,sweep,82,82,"));
-    EXPECT_THAT(first.out, HasSubstr("basin,basin,16,16,"));
+    const std::string first = done(study_run("a"));
+    EXPECT_THAT(first, HasSubstr("sweep,sweep,82,82,"));
+    EXPECT_THAT(first, HasSubstr("basin,basin,16,16,"));
     EXPECT_THAT(study_run("a").out, HasSubstr("was there"));
-    const testing::Printed points =
-        run_graze({"export", path("a"), "--run", "sweep", "--label", "periodic", "--format", "csv"});
-    EXPECT_EQ(points.code, 0) << points.err;
-    EXPECT_THAT(points.out, StartsWith("number,chain,direction,V0,label,period,duration,signature,"));
-    const testing::Printed query = run_graze({"export", path("a"), "--sql", "SELECT 1 + 1 AS two", "--format", "csv"});
+    const std::string points = done({"export", path("a"), "--run", "sweep", "--label", "periodic", "--format", "csv"});
+    EXPECT_THAT(points, StartsWith("number,chain,direction,V0,label,period,duration,signature,"));
+    const Printed query = run_graze({"export", path("a"), "--sql", "SELECT 1 + 1 AS two", "--format", "csv"});
     EXPECT_EQ(query.out, "two\n2\n");
-    const testing::Printed hdf5 = run_graze({"export", path("a"), "--format", "hdf5", "--output", path("a.h5")});
-    EXPECT_EQ(hdf5.code, 0) << hdf5.err;
+    done({"export", path("a"), "--format", "hdf5", "--output", path("a.h5")});
     EXPECT_GT(std::filesystem::file_size(path("a.h5")), 10'000u);
     EXPECT_THAT(run_graze({"export", path("a"), "--what", "runs"}).out, HasSubstr("complete"));
 }
@@ -109,8 +94,7 @@ TEST_F(RunStudyTest, DrawsPicturesOfEveryKind) {
         std::vector<std::string> words{"plot", path("a"), "--output", path("p.svg")};
         words.insert(words.end(), options.begin(), options.end());
         std::filesystem::remove(path("p.svg"));
-        const testing::Printed run = run_graze(words);
-        EXPECT_EQ(run.code, 0) << run.err;
+        done(words);
         return std::filesystem::exists(path("p.svg")) ? std::filesystem::file_size(path("p.svg")) : 0;
     };
     EXPECT_GT(drawn({"--run", "sweep"}), 10'000u);
@@ -123,33 +107,16 @@ TEST_F(RunStudyTest, DrawsPicturesOfEveryKind) {
 }
 
 /// Starts the program and kills it after a time. @return true if it had finished before
-bool run_and_kill(const std::vector<std::string>& words, std::chrono::microseconds after) {
-    const pid_t child = fork();
-    if (child == 0) {
-        const int nowhere = open("/dev/null", O_WRONLY);
-        dup2(nowhere, 1);
-        dup2(nowhere, 2);
-        std::vector<char*> arguments;
-        for (const std::string& word : words)
-            arguments.push_back(const_cast<char*>(word.c_str()));
-        arguments.push_back(nullptr);
-        execv(testing::program_file, arguments.data());
-        _exit(127);
-    }
+bool run_and_kill(const std::vector<std::string>& words, const std::string& log, std::chrono::microseconds after) {
+    StartedProcess process(words, log);
     std::this_thread::sleep_for(after);
-    int status = 0;
-    const bool ended = waitpid(child, &status, WNOHANG) == child;
-    if (!ended) {
-        kill(child, SIGKILL);
-        waitpid(child, &status, 0);
-    }
-    return ended && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    return process.ended() == 0;
 }
 
 using RunStudySlow = RunStudyTest;
 
 TEST_F(RunStudyTest, OnlyDrawsPicturesOfTheChosenRuns) {
-    const testing::Printed some = run_graze({"run", path("study.toml"), "--output", path("some"), "--only", "basin"});
+    const Printed some = run_graze({"run", path("study.toml"), "--output", path("some"), "--only", "basin"});
     EXPECT_EQ(some.code, 0) << some.err;
     EXPECT_TRUE(std::filesystem::exists(path("some/basin.png")));
     EXPECT_FALSE(std::filesystem::exists(path("some/sweep.png")));
@@ -164,9 +131,10 @@ TEST_F(RunStudySlow, HasTheSameResultsAfterAHundredKills) {
     // When a study is complete, the next round begins in a new folder, so that kills hit all stages of a study.
     for (int round = 0; kills < 100; ++round) {
         const std::string output = "killed" + std::to_string(round);
-        const std::vector<std::string> words{"graze",  "run", path("study.toml"), "--output", path(output),
-                                             "--jobs", "2",   "--no-pictures"};
-        while (!run_and_kill(words, std::chrono::microseconds(std::uniform_int_distribution<>(2'000, 250'000)(random))))
+        const std::vector<std::string> words{"run", path("study.toml"), "--output", path(output), "--jobs",
+                                             "2",   "--no-pictures"};
+        while (!run_and_kill(words, path("log"),
+                             std::chrono::microseconds(std::uniform_int_distribution<>(2'000, 250'000)(random))))
             ++kills;
         ASSERT_EQ(everything(output), whole) << "after " << kills << " kills";
         std::filesystem::remove_all(path(output));
@@ -178,17 +146,13 @@ TEST_F(RunStudyTest, ResultsAreContinuedAndRepeatedFromTheirFileAlone) {
     ASSERT_EQ(study_run("a").code, 0);
     const std::string before = everything("a");
     std::filesystem::remove(path("study.toml"));
-    const testing::Printed on = run_graze({"run", path("a"), "--no-pictures", "--format", "csv"});
-    EXPECT_EQ(on.code, 0) << on.err;
-    EXPECT_THAT(on.out, HasSubstr("was there"));
-    EXPECT_EQ(on.out.find("done"), std::string::npos);
-    const testing::Printed again =
-        run_graze({"run", path("a/results.sqlite"), "--output", path("b"), "--only", "sweep,basin"});
-    EXPECT_EQ(again.code, 0) << again.err;
+    const std::string on = done({"run", path("a"), "--no-pictures", "--format", "csv"});
+    EXPECT_THAT(on, HasSubstr("was there"));
+    EXPECT_EQ(on.find("done"), std::string::npos);
+    done({"run", path("a/results.sqlite"), "--output", path("b"), "--only", "sweep,basin"});
     EXPECT_EQ(everything("a"), before);
     EXPECT_EQ(everything("b"), before);
-    const testing::Printed drawn = run_graze({"run", path("a")});
-    EXPECT_EQ(drawn.code, 0) << drawn.err;
+    done({"run", path("a")});
     EXPECT_TRUE(std::filesystem::exists(path("a/sweep.png")));
 }
 
@@ -217,7 +181,7 @@ private:
 };
 
 TEST_F(RunStudyTest, AnInterruptedBranchTellsHowToContinue) {
-    std::ofstream(path("branch.toml")) << R"(
+    folder.write("branch.toml", R"(
 name = "b"
 model = "impact-oscillator"
 [runs.chain]
@@ -225,7 +189,7 @@ kind = "continue"
 set = { omega = 1.2, sigma = 0.5, amplitude = 0.1 }
 along = { amplitude = [0.01, 0.2] }
 direction = "both"
-)";
+)");
     const std::vector<std::string> command{"run",           path("branch.toml"), "--output", path("b"),
                                            "--no-pictures", "--steps",           "--format", "csv"};
     Interrupting buffer(5);
@@ -234,27 +198,24 @@ direction = "both"
     EXPECT_EQ(run_program(command, {out, err, false}), exit_interrupted);
     EXPECT_THAT(out.str(), HasSubstr("interrupted; the same command begins the run again"));
     EXPECT_THAT(out.str(), ::testing::Not(HasSubstr("asked for")));
-    const testing::Printed again = run_graze(command);
-    EXPECT_EQ(again.code, 0) << again.err;
-    EXPECT_THAT(again.out, HasSubstr("amplitude = 0.2"));
-    EXPECT_THAT(again.out, ::testing::Not(HasSubstr("interrupted")));
+    const std::string again = done(command);
+    EXPECT_THAT(again, HasSubstr("amplitude = 0.2"));
+    EXPECT_THAT(again, ::testing::Not(HasSubstr("interrupted")));
 }
 
 TEST_F(RunStudyTest, AMotionWithoutContactsFailsWithARemedy) {
-    std::ofstream(path("wait.toml")) << R"(
+    folder.write("wait.toml", R"(
 name = "w"
 model = "impact-oscillator"
 [runs.wait]
 kind = "simulate"
 set = { amplitude = 0, sigma = 1 }
 contacts = 3
-)";
-    const testing::Printed run =
-        run_graze({"run", path("wait.toml"), "--output", path("w"), "--no-pictures", "--format", "csv"});
-    EXPECT_EQ(run.code, 0) << run.err;
-    EXPECT_THAT(run.out, HasSubstr("points_failed"));
-    EXPECT_THAT(run.out, HasSubstr("no contact that ends the motion"));
-    EXPECT_THAT(run.out, HasSubstr("give a time too"));
+)");
+    const std::string run = done({"run", path("wait.toml"), "--output", path("w"), "--no-pictures", "--format", "csv"});
+    EXPECT_THAT(run, HasSubstr("points_failed"));
+    EXPECT_THAT(run, HasSubstr("no contact that ends the motion"));
+    EXPECT_THAT(run, HasSubstr("give a time too"));
 }
 
 /// False for a user such as root, to whom permissions do not apply.
@@ -271,14 +232,10 @@ TEST_F(RunStudyTest, UnwritableFoldersAreReportedInOneLine) {
     std::filesystem::permissions(path("a") + "/results.sqlite", perms::owner_read);
     const bool kept_out = is_kept_out(path("closed"));
     if (kept_out)
-        for (const std::string output : {"closed", "closed/below", "a"}) {
-            const testing::Printed run = run_graze({"run", path("study.toml"), "--output", path(output)});
-            EXPECT_EQ(run.code, 2) << output;
-            EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-            EXPECT_THAT(run.err, HasSubstr(path(output))) << run.err;
-        }
+        for (const std::string output : {"closed", "closed/below", "a"})
+            expect_refusal({"run", path("study.toml"), "--output", path(output)}, path(output));
     // Reading needs no permission to write.
-    EXPECT_EQ(run_graze({"export", path("a"), "--run", "sweep", "--format", "csv"}).code, 0);
+    done({"export", path("a"), "--run", "sweep", "--format", "csv"});
     for (const char* folder : {"closed", "a"})
         std::filesystem::permissions(path(folder), perms::owner_all);
     if (!kept_out)
@@ -286,7 +243,7 @@ TEST_F(RunStudyTest, UnwritableFoldersAreReportedInOneLine) {
 }
 
 TEST_F(RunStudyTest, NamesOfColumnsAreUsableAsNamesOfStates) {
-    std::ofstream(path("names.toml")) << R"toml(
+    folder.write("names.toml", R"toml(
 name = "names"
 [parameters]
 T = 1
@@ -301,8 +258,8 @@ rates = { start = "arclength", number = "T", arclength = "cos(number) - start - 
 [sections.part]
 state = "number"
 value = 0
-)toml";
-    std::ofstream(path("study.toml")) << R"toml(
+)toml");
+    folder.write("study.toml", R"toml(
 name = "names"
 model = "names.toml"
 values = ["start", "Start = 2*start", "rowid = 3*start", "period = 4*start"]
@@ -315,38 +272,35 @@ kind = "continue"
 direction = "up"
 along = { T = [0.9, 1.1] }
 monitors = { a = { maximum = "start" }, A = { minimum = "start" }, type = "period", parameter = { maximum = "arclength" } }
-)toml";
-    const testing::Printed run =
+)toml");
+    const Printed run =
         run_graze({"run", path("study.toml"), "--output", path("n"), "--no-pictures", "--format", "csv"});
     ASSERT_EQ(run.code, 0) << run.err << run.out;
     for (const std::string name : {"point", "samples"})
         for (const std::string what : {"points", name == "point" ? "samples" : "segments"}) {
-            const testing::Printed table =
-                run_graze({"export", path("n"), "--run", name, "--what", what, "--format", "csv"});
-            ASSERT_EQ(table.code, 0) << table.err;
-            EXPECT_GT(testing::split(table.out, '\n').size(), 2u);
+            const std::string table = done({"export", path("n"), "--run", name, "--what", what, "--format", "csv"});
+            EXPECT_GT(split(table, '\n').size(), 2u);
             std::set<std::string> columns;
-            for (std::string column : testing::split(testing::header(table.out), ',')) {
+            for (std::string column : split(header(table), ',')) {
                 std::transform(column.begin(), column.end(), column.begin(),
                                [](unsigned char c) { return std::tolower(c); });
-                EXPECT_TRUE(columns.insert(column).second) << column << " is there twice in " << table.out;
+                EXPECT_TRUE(columns.insert(column).second) << column << " is there twice in " << table;
             }
         }
-    const testing::Csv samples(
-        run_graze({"export", path("n"), "--run", "point", "--what", "samples", "--format", "csv"}).out);
+    const Csv samples(run_graze({"export", path("n"), "--run", "point", "--what", "samples", "--format", "csv"}).out);
     for (std::size_t r = 0; r < samples.rows.size(); ++r) {
         EXPECT_EQ(samples.number(r, "Start_2"), 2 * samples.number(r, "start"));
         EXPECT_EQ(samples.number(r, "rowid_2"), 3 * samples.number(r, "start"));
     }
-    const testing::Csv orbits(run_graze({"export", path("n"), "--format", "csv", "--sql",
-                                         "SELECT a, A_2, type_2, period FROM branch_samples"})
-                                  .out);
+    const Csv orbits(run_graze({"export", path("n"), "--format", "csv", "--sql",
+                                "SELECT a, A_2, type_2, period FROM branch_samples"})
+                         .out);
     for (std::size_t r = 0; r < orbits.rows.size(); ++r) {
         EXPECT_NEAR(orbits.number(r, "a"), -orbits.number(r, "A_2"), 1e-9);
         EXPECT_EQ(orbits.number(r, "type_2"), orbits.number(r, "period"));
     }
-    EXPECT_EQ(run_graze({"export", path("n"), "--format", "hdf5", "--output", path("n.h5")}).code, 0);
-    EXPECT_EQ(run_graze({"points", path("n"), "--run", "samples", "--format", "csv"}).code, 0);
+    done({"export", path("n"), "--format", "hdf5", "--output", path("n.h5")});
+    done({"points", path("n"), "--run", "samples", "--format", "csv"});
     for (const char* view : {"all_points", "label_changes", "branch_points", "special_points", "orbits"})
         EXPECT_EQ(run_graze({"export", path("n"), "--sql", std::string("SELECT * FROM ") + view}).code, 0) << view;
     for (const std::string name : {"point", "samples"})
@@ -357,7 +311,7 @@ TEST_F(RunStudyTest, OtherFilesAreRefused) {
     EXPECT_THAT(run_graze({"run", path("none.sqlite")}).err, HasSubstr("there is no such result file"));
     std::ofstream(path("no.sqlite")) << "this is something else, however long it may be";
     EXPECT_THAT(run_graze({"run", path("no.sqlite")}).err, HasSubstr("no result file of graze"));
-    EXPECT_NE(run_graze({"run", folder_.string()}).code, 0);
+    EXPECT_NE(run_graze({"run", folder.path()}).code, 0);
 }
 
 TEST_F(RunStudyTest, NamesWithoutEndingSuggestTheFile) {
@@ -367,11 +321,11 @@ TEST_F(RunStudyTest, NamesWithoutEndingSuggestTheFile) {
                 HasSubstr("there is no shipped model 'mine'; the file beside the study is called mine.toml"));
     const std::filesystem::path before = std::filesystem::current_path();
     std::filesystem::current_path(std::filesystem::path(path("own.toml")).parent_path());
-    const testing::Printed of_study = run_graze("run own"), of_model = run_graze("simulate mine");
+    const Printed of_study = run_graze("run own"), of_model = run_graze("simulate mine");
     std::filesystem::current_path(before);
     EXPECT_THAT(of_study.err, HasSubstr("there is no study 'own'; the file is called own.toml"));
     EXPECT_THAT(of_model.err, HasSubstr("there is no shipped model 'mine'; the file is called mine.toml"));
 }
 
 } // namespace
-} // namespace graze
+} // namespace graze::testing

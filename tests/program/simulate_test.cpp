@@ -199,16 +199,15 @@ TEST_F(Simulate, IrregularEndingKeepsTheTable) {
 }
 
 TEST_F(Simulate, JsonHasModelSettingsAndUnits) {
-    const Printed run = run_graze("simulate electromagnetic-testbed --set V0=4.8 --from I=V0/48 theta=pi/2 --periods 2 "
-                                  "--section phase0 --format json");
-    EXPECT_EQ(run.code, 0) << run.err;
-    EXPECT_TRUE(JsonCheck(run.out).valid()) << run.out;
+    const std::string run = done("simulate electromagnetic-testbed --set V0=4.8 --from I=V0/48 theta=pi/2 --periods 2 "
+                                 "--section phase0 --format json");
+    EXPECT_TRUE(JsonCheck(run).valid()) << run;
     for (const std::string part :
          {R"("model":"electromagnetic-testbed")", R"("V0":4.7999999999999998)", R"("I":0.099999999999999992)",
           R"("theta":1.5707963267948966)", R"("tolerance":9.9999999999999998e-13)", R"("outcome":{"ending":"stopped")",
           R"("columns":["section","time","direction","mode","q","v","I","theta"])",
           R"("units":["","s","","","m","m/s","A","rad"])"})
-        EXPECT_THAT(run.out, HasSubstr(part));
+        EXPECT_THAT(run, HasSubstr(part));
 }
 
 TEST_F(Simulate, QuantitiesWithoutAValueAreEmptyAndReported) {
@@ -222,15 +221,11 @@ TEST_F(Simulate, QuantitiesWithoutAValueAreEmptyAndReported) {
 TEST_F(Simulate, OutputIsCompleteOrMissing) {
     const std::string file = folder / "run.csv";
     const std::size_t before = folder.files();
-    const Printed run = simulate("oscillator.toml", "--format csv --output " + file);
-    EXPECT_EQ(run.code, 0) << run.err;
-    EXPECT_EQ(run.out, "");
+    EXPECT_EQ(done(simulate("oscillator.toml", "--format csv --output " + file)), "");
     EXPECT_EQ(Csv(contents(file)).rows.size(), 500U);
     EXPECT_EQ(folder.files(), before + 1) << "something was left behind";
-    const Printed refused =
-        simulate("oscillator.toml", "--steps 1000000000 --time 1e6 --output " + (folder / "no/such/file"));
-    EXPECT_EQ(refused.code, exit_bad_input) << "must be noticed before the run";
-    EXPECT_THAT(refused.err, HasSubstr("cannot be written"));
+    expect_refusal(simulate("oscillator.toml", "--steps 1000000000 --time 1e6 --output " + (folder / "no/such/file")),
+                   "cannot be written");
     EXPECT_EQ(simulate("oscillator.toml", "--output /dev/null").code, 0);
     EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
 }

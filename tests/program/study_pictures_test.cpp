@@ -27,9 +27,8 @@ protected:
             << more << '\n';
     }
     std::string run() const {
-        const Printed printed = run_graze({"run", folder / "study.toml", "--output", folder / "out"});
-        EXPECT_EQ(printed.code, 0) << printed.err;
-        EXPECT_THAT(printed.out, HasSubstr("out/p.svg\n"));
+        const std::string printed = done({"run", folder / "study.toml", "--output", folder / "out"});
+        EXPECT_THAT(printed, HasSubstr("out/p.svg\n"));
         return contents(picture());
     }
     std::filesystem::path picture() const { return folder / "out/p.svg"; }
@@ -78,8 +77,7 @@ TEST_F(KeptPictures, ValuesOfTheStudyCanBeDrawnOverTime) {
     std::ofstream(folder / "study.toml") << "name = \"s\"\nmodel = \"model.toml\"\n[runs.r]\nkind = \"simulate\"\n"
                                             "time = 3\nvalues = [\"x\", \"balance = (x^2 - v^2)/2\"]\n"
                                             "sample = { a = { maxima = \"x\" } }\n";
-    const Printed printed = run_graze({"run", folder / "study.toml", "--output", folder / "out", "--no-pictures"});
-    ASSERT_EQ(printed.code, 0) << printed.err;
+    done({"run", folder / "study.toml", "--output", folder / "out", "--no-pictures"});
     const ResultFile file(folder / "out/results.sqlite", ResultFile::Access::read);
     const Figure figure = make_picture(default_picture(file.runs().front()), file).figure;
     ASSERT_EQ(figure.panels.size(), 2U);

@@ -17,9 +17,8 @@ namespace {
 struct ToleranceCommand : public ::testing::Test {
     void SetUp() override {
         results = folder / "results";
-        const Printed printed = run_graze({"run", "mems-switch", "--output", results, "--quiet", "--only", "free",
-                                           "--only", "no_impact", "--only", "touches_gap"});
-        ASSERT_EQ(printed.code, 0) << printed.err;
+        done({"run", "mems-switch", "--output", results, "--quiet", "--only", "free", "--only", "no_impact", "--only",
+              "touches_gap"});
     }
     Printed tolerance(std::vector<std::string> words) const {
         words.insert(words.begin(), {"tolerance", results});
@@ -27,9 +26,7 @@ struct ToleranceCommand : public ::testing::Test {
     }
     Csv table(std::vector<std::string> words) const {
         words.insert(words.end(), {"--format", "csv"});
-        const Printed printed = tolerance(words);
-        EXPECT_EQ(printed.code, 0) << printed.err;
-        return Csv(printed.out);
+        return Csv(done(tolerance(words)));
     }
     static double number(const Csv& csv, const std::string& first, const std::string& name, const std::string& column) {
         for (std::size_t row = 0; row < csv.rows.size(); ++row)
@@ -99,9 +96,8 @@ TEST_F(ToleranceCommand, StatisticsOfDevicesMatchTheDerivatives) {
 }
 
 TEST_F(ToleranceCommand, DrawsTheDistributionOfDevices) {
-    const Printed printed = tolerance({"no_impact:GR1", "--vary", "delta=1%", "--devices", "300", "--within",
-                                       "0.2:", "--plot", folder / "yield.svg", "--data", folder / "yield.gnuplot"});
-    EXPECT_EQ(printed.code, 0) << printed.err;
+    done(tolerance({"no_impact:GR1", "--vary", "delta=1%", "--devices", "300", "--within", "0.2:", "--plot",
+                    folder / "yield.svg", "--data", folder / "yield.gnuplot"}));
     EXPECT_THAT(contents(folder / "yield.svg"), HasSubstr("</svg>"));
     EXPECT_TRUE(std::filesystem::exists(folder / "yield.gnuplot"));
     const Printed alike =
@@ -123,10 +119,7 @@ TEST_F(ToleranceCommand, CountsDevicesWithoutASolution) {
 
 TEST_F(ToleranceCommand, RefusesWrongPointsAndOptions) {
     const auto refused = [&](std::vector<std::string> words, const std::string& why) {
-        const Printed printed = tolerance(words);
-        EXPECT_EQ(printed.code, 2) << why;
-        EXPECT_THAT(printed.err, HasSubstr(why));
-        EXPECT_EQ(printed.out, "");
+        expect_refusal(tolerance(words), why);
     };
     refused({"no_impact:EP1"}, "nothing that could be held happens at a point of type EP");
     refused({"no_impact:GR9"}, "GR9");

@@ -17,14 +17,7 @@ namespace {
 
 struct TripCommand : public ::testing::Test {
     std::string run_only(const std::string& study, const std::vector<std::string>& runs) {
-        std::vector<std::string> words{"run", study, "--output", folder / "results", "--quiet"};
-        for (const std::string& run : runs) {
-            words.emplace_back("--only");
-            words.push_back(run);
-        }
-        const Printed printed = run_graze(words);
-        EXPECT_EQ(printed.code, 0) << printed.err;
-        return folder / "results";
+        return testing::run_only(study, runs, folder / "results");
     }
     Csv table(std::vector<std::string> words, int code = 0) {
         words.insert(words.begin(), "trip");
@@ -35,17 +28,10 @@ struct TripCommand : public ::testing::Test {
     }
     void expect_refusal(std::vector<std::string> words, const std::string& message) {
         words.insert(words.begin(), "trip");
-        const Printed printed = run_graze(words);
-        EXPECT_EQ(printed.code, 2);
-        EXPECT_THAT(printed.err, HasSubstr(message));
-        EXPECT_EQ(printed.out, "");
+        testing::expect_refusal(words, message);
     }
     Folder folder;
 };
-
-double number(const Csv& csv, std::size_t row, const char* column) {
-    return std::stod(csv.text(row, column));
-}
 
 } // namespace
 
@@ -55,26 +41,26 @@ TEST_F(TripCommand, TimesOfTheSwitchMatchPublishedOnes) {
     ASSERT_EQ(csv.rows.size(), 10U);
     for (std::size_t row = 0; row < csv.rows.size(); ++row) {
         // The shipped parameter is 0.2: 1e-2 to 1e-20 of its decade.
-        EXPECT_NEAR(std::log10(number(csv, row, "overshoot")), -3 - 2 * static_cast<double>(row), 1e-12);
+        EXPECT_NEAR(std::log10(csv.number(row, "overshoot")), -3 - 2 * static_cast<double>(row), 1e-12);
         EXPECT_EQ(csv.text(row, "ending"), "speed");
         // Contacts shift the phase: the simulated cycle ends some hundredths of a cycle earlier or later.
-        EXPECT_NEAR(number(csv, row, "end_cycles"), number(csv, row, "cycles"), 0.06);
+        EXPECT_NEAR(csv.number(row, "end_cycles"), csv.number(row, "cycles"), 0.06);
         EXPECT_EQ(csv.text(row, "simulated_time").empty(), row > 4) << row;
     }
     // The published motion begins 1e-4 beyond a grazing known to all digits; that of the branch has fewer.
     const Csv published = table({results, "no_impact:GR1", "--overshoot", "1e-4", "--until", "end"});
     ASSERT_EQ(published.rows.size(), 1U);
-    EXPECT_NEAR(number(published, 0, "simulated_time"), 27.31773570163, 1e-6);
+    EXPECT_NEAR(published.number(0, "simulated_time"), 27.31773570163, 1e-6);
     EXPECT_EQ(published.text(0, "ending"), "singular");
     const Csv level = table({results, "GR1", "--overshoot", "1e-4", "--until", "q=0.9"});
     EXPECT_EQ(level.text(0, "ending"), "level");
-    EXPECT_LT(number(level, 0, "end_time"), 27.31773570163);
+    EXPECT_LT(level.number(0, "end_time"), 27.31773570163);
     const Csv speed = table({results, "GR1", "--overshoot", "1e-4", "--greatest-speed", "0.001"});
-    EXPECT_NEAR(number(speed, 0, "end_time"), 6.267394614702, 1e-6);
+    EXPECT_NEAR(speed.number(0, "end_time"), 6.267394614702, 1e-6);
     // Disturbed towards the stop, without overshoot: the first contact is immediate and has the disturbance's speed.
     const Csv pushed = table({results, "GR1", "--overshoot", "0", "--disturbance", "v=-1e-4"});
-    EXPECT_NEAR(number(pushed, 0, "first_speed"), 1e-4, 1e-8);
-    EXPECT_NEAR(number(pushed, 0, "end_time"), number(pushed, 0, "simulated_time"), 1e-3);
+    EXPECT_NEAR(pushed.number(0, "first_speed"), 1e-4, 1e-8);
+    EXPECT_NEAR(pushed.number(0, "end_time"), pushed.number(0, "simulated_time"), 1e-3);
     const Printed json = run_graze({"trip", results, "GR1", "--overshoot", "1e-3:1e-6", "--format", "json"});
     EXPECT_THAT(json.out, HasSubstr("\"parameter\":\"V\""));
     EXPECT_EQ(table({results, "GR1", "--overshoot", "1e-3:1e-6"}).rows.size(), 4U);
@@ -115,9 +101,7 @@ TEST_F(TripCommand, RefusesPointsAndOptionsWithoutATrip) {
 
 TEST_F(TripCommand, DrawsTripTimes) {
     const std::string results = run_only("mems-switch", {"free", "no_impact"});
-    const Printed printed = run_graze(
-        {"trip", results, "GR1", "--until", "end", "--plot", folder / "trip.svg", "--data", folder / "trip.gp"});
-    EXPECT_EQ(printed.code, 0) << printed.err;
+    done({"trip", results, "GR1", "--until", "end", "--plot", folder / "trip.svg", "--data", folder / "trip.gp"});
     EXPECT_THAT(contents(folder / "trip.svg"), HasSubstr("</svg>"));
     EXPECT_THAT(contents(folder / "trip.gp"), HasSubstr("logscale x"));
 }
@@ -163,19 +147,18 @@ TEST_F(TripCommand, ComparesAFoldWithATouch) {
     for (std::size_t row = 0; row < fold.rows.size(); ++row) {
         SCOPED_TRACE(row);
         // Cycles grow with the inverse root of the overshoot; the time is a multiple of the period.
-        EXPECT_NEAR(number(fold, row, "cycles"),
-                    number(fold, 0, "cycles") * std::pow(10, 0.5 * static_cast<double>(row)),
-                    1e-9 * number(fold, row, "cycles"));
-        EXPECT_NEAR(number(fold, row, "time") / number(fold, row, "cycles"), 2 * std::numbers::pi / 0.95, 1e-8);
+        EXPECT_NEAR(fold.number(row, "cycles"), fold.number(0, "cycles") * std::pow(10, 0.5 * static_cast<double>(row)),
+                    1e-9 * fold.number(row, "cycles"));
+        EXPECT_NEAR(fold.number(row, "time") / fold.number(row, "cycles"), 2 * std::numbers::pi / 0.95, 1e-8);
         EXPECT_EQ(fold.text(row, "simulated_cycles").empty(), row > 5);
         if (row > 5)
             continue;
         // Errors of the normal form are of the next order: about one cycle from rounding to whole cycles, and a term
         // with the logarithm of the overshoot from the cubic term: at most 5 of up to 11000 cycles.
-        EXPECT_NEAR(number(fold, row, "simulated_cycles"), number(fold, row, "gate_cycles"), 5);
-        EXPECT_NEAR(number(fold, row, "simulated_time"),
-                    number(fold, row, "simulated_cycles") * 2 * std::numbers::pi / 0.95,
-                    1e-6 * number(fold, row, "simulated_time"));
+        EXPECT_NEAR(fold.number(row, "simulated_cycles"), fold.number(row, "gate_cycles"), 5);
+        EXPECT_NEAR(fold.number(row, "simulated_time"),
+                    fold.number(row, "simulated_cycles") * 2 * std::numbers::pi / 0.95,
+                    1e-6 * fold.number(row, "simulated_time"));
     }
     const Csv both = table({results, "touching:GR1", "--beside", "folding:SN1", "--overshoot", "1e-2:1e-10"});
     const Csv touch = table({results, "touching:GR1", "--overshoot", "1e-2:1e-10"});
@@ -185,9 +168,8 @@ TEST_F(TripCommand, ComparesAFoldWithATouch) {
         EXPECT_EQ(both.text(row, "end_time"), touch.text(row, "end_time"));
         EXPECT_EQ(both.text(row, "beside_cycles"), fold.text(row, "cycles"));
     }
-    const Printed drawn = run_graze({"trip", results, "touching:GR1", "--beside", "folding:SN1", "--overshoot",
-                                     "1e-2:1e-6", "--plot", folder / "both.svg", "--data", folder / "both.gp"});
-    EXPECT_EQ(drawn.code, 0) << drawn.err;
+    done({"trip", results, "touching:GR1", "--beside", "folding:SN1", "--overshoot", "1e-2:1e-6", "--plot",
+          folder / "both.svg", "--data", folder / "both.gp"});
     EXPECT_THAT(contents(folder / "both.gp"), HasSubstr("logscale y"));
     expect_refusal({results, "folding:SN1", "--overshoot", "-1e-3"}, "there are two orbits, and no trip");
     expect_refusal({results, "folding:SN1", "--overshoot", "0"}, "at the fold itself nothing passes");
@@ -203,17 +185,17 @@ TEST_F(TripCommand, FindsTheDelayOfARamp) {
     const Csv touch = table({results, "touching:GR1", "--ramp", "1e-5:1e-10"});
     ASSERT_EQ(touch.rows.size(), 6U);
     for (std::size_t row = 0; row < touch.rows.size(); ++row) {
-        const double rate = number(touch, row, "rate"), delay = number(touch, row, "delay");
-        EXPECT_NEAR(number(touch, row, "value") - 0.2013662121541341, delay, 1e-11);
-        EXPECT_NEAR(number(touch, row, "from") + rate * number(touch, row, "time"), number(touch, row, "value"), 1e-13);
-        EXPECT_NEAR(delay, number(touch, row, "delay_cycles") * rate * 2 * std::numbers::pi, 1e-9 * delay);
-        EXPECT_GT(number(touch, row, "delay_cycles"), 3);
-        EXPECT_LT(number(touch, row, "delay_cycles"), 10);
+        const double rate = touch.number(row, "rate"), delay = touch.number(row, "delay");
+        EXPECT_NEAR(touch.number(row, "value") - 0.2013662121541341, delay, 1e-11);
+        EXPECT_NEAR(touch.number(row, "from") + rate * touch.number(row, "time"), touch.number(row, "value"), 1e-13);
+        EXPECT_NEAR(delay, touch.number(row, "delay_cycles") * rate * 2 * std::numbers::pi, 1e-9 * delay);
+        EXPECT_GT(touch.number(row, "delay_cycles"), 3);
+        EXPECT_LT(touch.number(row, "delay_cycles"), 10);
     }
     const Csv fold = table({results, "folding:SN1", "--ramp", "1e-6,1e-8", "--until", "q+delta=0"});
     for (std::size_t row = 0; row < 2; ++row) // the stop is reached about 20 cycles before the normal form diverges
-        EXPECT_NEAR(number(fold, row, "delay"), number(fold, row, "predicted_delay"),
-                    30 * number(fold, row, "rate") * 2 * std::numbers::pi / 0.95);
+        EXPECT_NEAR(fold.number(row, "delay"), fold.number(row, "predicted_delay"),
+                    30 * fold.number(row, "rate") * 2 * std::numbers::pi / 0.95);
     const Csv late = table({results, "folding:SN1", "--ramp", "1e-8", "--until", "q+delta=0", "--cycles", "10"}, 3);
     EXPECT_EQ(late.text(0, "ending"), "end-time");
     EXPECT_EQ(late.text(0, "value"), "");
@@ -244,17 +226,17 @@ TEST_F(TripCommand, FindsTripsUnderWavesAndNoise) {
     const Csv noise = table(with({"--jobs", "1"}));
     ASSERT_EQ(noise.rows.size(), 2U);
     for (std::size_t row = 0; row < 2; ++row) {
-        EXPECT_EQ(number(noise, row, "probability"), number(noise, row, "trips") / 100);
-        EXPECT_LE(number(noise, row, "low"), number(noise, row, "probability"));
-        EXPECT_GE(number(noise, row, "high"), number(noise, row, "probability"));
+        EXPECT_EQ(noise.number(row, "probability"), noise.number(row, "trips") / 100);
+        EXPECT_LE(noise.number(row, "low"), noise.number(row, "probability"));
+        EXPECT_GE(noise.number(row, "high"), noise.number(row, "probability"));
         EXPECT_EQ(noise.text(row, "failed"), "0");
     }
-    EXPECT_LT(number(noise, 0, "trips"), number(noise, 1, "trips"));
+    EXPECT_LT(noise.number(0, "trips"), noise.number(1, "trips"));
     EXPECT_EQ(table(with({"--jobs", "3"})).rows, noise.rows);
     EXPECT_NE(table(with({"--memory", "3"})).rows, noise.rows);
     std::vector<std::string> drawn = with({"--plot", folder / "noise.svg", "--data", folder / "noise.gp"});
     drawn.insert(drawn.begin(), "trip");
-    EXPECT_EQ(run_graze(drawn).code, 0);
+    done(drawn);
     EXPECT_THAT(contents(folder / "noise.gp"), HasSubstr("probability of a trip"));
     expect_refusal({results, "GR1", "--noise", "0.002"}, "give the value of V that is disturbed: --at VALUE");
     expect_refusal({results, "GR1", "--noise", "-1", "--at", "0.199"}, "--noise: the level of noise -1");

@@ -37,10 +37,9 @@ const std::map<std::string, std::string> units{
 
 /// Checks the units of the columns that a command prints. @return number of columns with a known unit
 std::size_t expect_units(const std::string& command) {
-    const Printed run = run_graze(command);
-    EXPECT_EQ(run.code, 0) << command << ": " << run.err;
-    EXPECT_TRUE(JsonCheck(run.out).valid()) << command;
-    const auto columns = list_of(run.out, "columns"), given = list_of(run.out, "units");
+    const std::string run = done(command);
+    EXPECT_TRUE(JsonCheck(run).valid()) << command;
+    const auto columns = list_of(run, "columns"), given = list_of(run, "units");
     EXPECT_EQ(columns.size(), given.size()) << command;
     std::size_t found = 0;
     for (std::size_t c = 0; c < std::min(columns.size(), given.size()); ++c)
@@ -77,7 +76,7 @@ start = { run = "free" }
 along = { V0 = [1, 1.6] }
 )";
     const std::string file = folder / "out";
-    ASSERT_EQ(run_graze("run " + (folder / "s.toml") + " --output " + file + " --no-pictures --quiet").code, 0);
+    done("run " + (folder / "s.toml") + " --output " + file + " --no-pictures --quiet");
     EXPECT_GT(expect_units("export " + file + " --run sweep --format json"), 5u);
     EXPECT_GT(expect_units("export " + file + " --run sweep --what samples --format json"), 3u);
     EXPECT_GT(expect_units("export " + file + " --run branch --format json"), 5u);

@@ -117,18 +117,13 @@ TEST(RecordPeriods, CountPeriodsAndAverageTheAmplitude) {
 TEST(RecordPeriods, NameTheReferenceThatHasNoWholePeriod) {
     PeriodSettings settings;
     settings.level = 5;
-    const auto refusal = [&](const std::string& asked_as) -> std::string {
-        StoredSamples source(named({"V"}), sampled(100, 1050, {[](double t) { return std::sin(t); }}));
-        try {
-            each_period(
-                source, settings, [](const Period&) {}, asked_as);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
-    };
-    EXPECT_THAT(refusal(""), HasSubstr("'V' does not rise through 5 twice; choose another reference or level"));
-    EXPECT_THAT(refusal("--"), HasSubstr("choose another --reference or --level, or record more periods"));
+    StoredSamples source(named({"V"}), sampled(100, 1050, {[](double t) { return std::sin(t); }}));
+    try {
+        each_period(source, settings, [](const Period&) {});
+        ADD_FAILURE() << "it was accepted";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("'V' does not rise through 5 twice; choose another reference or level"));
+    }
 }
 
 TEST(Section, AgreesWithSectionsOfTheSimulation) {

@@ -75,16 +75,13 @@ TEST(FitRecords, MotionsAreIntegratedWithTheToleranceOfTheRun) {
     EXPECT_LT(coarse, 1e-3);
 }
 
-TEST(FitRecords, RefusesUnitsThatDoNotAgreeInTheWordsOfTheCaller) {
+TEST(FitRecords, RefusesUnitsThatDoNotAgree) {
     StudyRun run = swing();
     const std::vector<KeptRecord> millimetres{record("x", "mm", 1000)};
     EXPECT_EQ(refusal(run, millimetres),
               "s.toml:7:1: x.csv: channel 'x' is in mm, and what it measures in m; convert it in the run that has the "
               "record: scale = { x = { factor = 0.001, unit = \"m\" } }");
     run.place = {};
-    run.identify().asked_as = "--";
-    EXPECT_EQ(refusal(run, millimetres),
-              "x.csv: channel 'x' is in mm, and what it measures in m; convert it by --scale x=0.001:m");
     EXPECT_THAT(refusal(run, {record("x", "m"), millimetres.front()}), HasSubstr("that of another record in m"));
     run.identify().readings.front().gain_unknown = true; // which converts
     EXPECT_EQ(refusal(run, millimetres), "");

@@ -31,7 +31,7 @@ TEST(RunLength, OfATimeCountsNoPeriods) {
     EXPECT_FALSE(length.period);
 }
 
-TEST(RunLength, RefusesContradictionsInTheWordsOfTheCaller) {
+TEST(RunLength, RefusesContradictions) {
     const Model model = load_model("impact-oscillator");
     const auto refusal = [&](const RunLengthRequest& request) -> std::string {
         try {
@@ -42,8 +42,7 @@ TEST(RunLength, RefusesContradictionsInTheWordsOfTheCaller) {
         return "";
     };
     EXPECT_THAT(refusal({.time = 1, .periods = 2}), HasSubstr("time and periods cannot be given together"));
-    EXPECT_THAT(refusal({.time = 1, .periods = 2, .asked_as = "--"}), HasSubstr("--time and --periods cannot"));
-    EXPECT_THAT(refusal({.periods = 0, .asked_as = "--"}), HasSubstr("--periods: 0 is not a positive number"));
+    EXPECT_THAT(refusal({.periods = 0}), HasSubstr("periods: 0 is not a positive number"));
     EXPECT_THAT(refusal({.periods = 1, .phase = "x"}), HasSubstr("'x' is no cyclic state"));
     EXPECT_THAT(refusal({.time = 1, .phase = "theta"}), HasSubstr("no periods are counted"));
 }

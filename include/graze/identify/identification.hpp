@@ -29,7 +29,6 @@ struct IdentificationSettings {
     std::optional<double> frequency{};
     std::optional<Estimate> beta1{}, beta2{}; ///< result of a coupling, for the leakage inductance
     double clamped = 0;                       ///< impedance: displacement at which the mass is clamped
-    std::string asked_as{};                   ///< prefix of option names in messages, such as "--"
 };
 
 /// Estimates from records, with warnings about the records and curves to plot.

@@ -24,9 +24,8 @@ struct RecordTableRequest {
         negated{};              ///< of sections: channels whose signs the symmetric image changes; none: no image
     std::string displacement{}; ///< of impacts: channel whose corners tell their times; empty: none
     ImpactWindow impacts{};
-    std::size_t part = 0;   ///< of spectra: averaged over parts of so many samples; 0: the whole record is one part
-    bool drawn = false;     ///< a figure is wanted, for which the rows of all samples need not be kept
-    std::string asked_as{}; ///< what stands before names of settings in messages, such as "--"
+    std::size_t part = 0; ///< of spectra: averaged over parts of so many samples; 0: the whole record is one part
+    bool drawn = false;   ///< a figure is wanted, for which the rows of all samples need not be kept
 };
 
 /// Names of the tables, in the order of RecordTableRequest::What.
@@ -54,11 +53,10 @@ protected:
     void begin_row(const std::string& name);
     /// Indices of the channels that are asked for. @throws InputError for one that the record does not have
     std::vector<std::size_t> channels_of(const RecordHeader& header) const {
-        return header.chosen_channels(request_.channels, option("channel"));
+        return header.chosen_channels(request_.channels, "channel");
     }
     /// Index of the only channel that is asked for. @throws InputError with this problem when it is not one
     std::size_t only_channel(const RecordHeader& header, const char* problem) const;
-    std::string option(const char* name) const { return request_.asked_as + name; }
     const RecordTableRequest& request() const { return request_; }
     bool several() const { return several_; }
     Table& rows() { return table_; }

@@ -1,9 +1,12 @@
 #pragma once
 
 #include "graze/picture/figure.hpp"
+#include "graze/trip/disturbed_trip.hpp"
+#include "graze/trip/noisy_trip.hpp"
 #include "graze/trip/overshoot_trip.hpp"
 #include "graze/trip/trip_time.hpp"
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -20,5 +23,17 @@ void add_trips(FigurePanel& panel, const std::vector<std::pair<double, TripTime>
 /// Times of trips over their overshoots, of one point or of several.
 /// @throws InputError without any point
 Figure trip_figure(const std::vector<OvershootTrips>& all);
+
+/// Delays of the trips of ramps over their rates. @param end what the trips go to, in words
+Figure ramp_figure(const LossPoint& point, const std::vector<RampRow>& rows, const std::string& end);
+/// The unit of such a rate; empty if neither the parameter nor the time has a unit.
+std::string unit_of_rate(const LossPoint& point);
+/// Times of trips over the amplitudes of waves. The distance of the point from the origin is marked.
+/// @param trips for each amplitude, or for the first ones
+Figure wave_figure(const LossPoint& point, const TripOrigin& origin, const std::vector<double>& amplitudes,
+                   const std::vector<TripTime>& trips, const std::string& end);
+/// Probabilities of trips over levels of noise. @param all for each level, or for the first ones
+Figure noise_figure(const LossPoint& point, const std::vector<double>& levels, const std::vector<NoisyTrips>& all,
+                    const NoiseSettings& settings);
 
 } // namespace graze

@@ -37,10 +37,9 @@ struct ImpactSettings : ImpactWindow {
     double significance = 6; ///< a jump must exceed its standard error by this factor; raise it against false impacts
 };
 /// The settings for a record's channels of these names. @param displacement its name; empty: there is none
-/// @param asked_as what stands before names of settings in messages, such as "--"
 /// @throws InputError when the record has no channel of that name
 ImpactSettings impact_settings(const RecordHeader& header, const std::string& velocity, const std::string& displacement,
-                               const ImpactWindow& window, const std::string& asked_as = "");
+                               const ImpactWindow& window);
 
 /// Finds impacts, which are jumps of a noisy velocity. At each place parabolas are fitted by least squares to the
 /// samples on both sides. An impact is where their values differ by more than noise and misfit explain, and by more

@@ -77,9 +77,8 @@ struct RecordPeriods {
 };
 
 /// Calls `take` for each period of a record in turn.
-/// @param asked_as prefix of option names in messages, such as "--"
 /// @throws InputError as PeriodSplitter does, and if there is no whole period
 RecordPeriods each_period(SampleSource& source, const PeriodSettings& settings,
-                          const std::function<void(const Period&)>& take, const std::string& asked_as = "");
+                          const std::function<void(const Period&)>& take);
 
 } // namespace graze

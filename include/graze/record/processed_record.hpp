@@ -28,7 +28,6 @@ struct RecordProcessing {
     std::size_t every = 1;      ///< decimation, see LowPassSettings
     std::string derivative{};   ///< channel whose derivative is added; empty: none
     std::size_t half_width = 0; ///< see DerivativeSettings
-    std::string asked_as{};     ///< prefix of option names in messages, such as "--"
 
     static constexpr std::size_t most_every = 1'000'000, least_half_width = 4, most_half_width = 100'000;
 };

@@ -2,9 +2,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
+#include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace graze {
@@ -19,16 +23,18 @@ public:
 
     Table() = default;
     explicit Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
+    explicit Table(std::initializer_list<Column> columns) : columns_(columns) {}
 
     /// Adds one cell; cells are added row by row. A number that is not finite counts as missing.
     void add(double value);
     void add(std::string_view text);
-    /// Adds several cells.
+    /// Adds several cells in this order: numbers, of which optional ones count as missing where they are empty, and
+    /// texts.
     template <class First, class Second, class... Others>
     void add(const First& first, const Second& second, const Others&... others) {
-        add(first);
-        add(second);
-        (add(others), ...);
+        add_any(first);
+        add_any(second);
+        (add_any(others), ...);
     }
     /// Adds a number; an infinite one becomes the text "inf" or "-inf".
     void add_extended(double value);
@@ -53,6 +59,15 @@ private:
         std::uint32_t text; ///< index of a text, or `none`
     };
     const Cell& cell(std::size_t row, std::size_t column) const;
+    template <class Value>
+    void add_any(const Value& value) {
+        if constexpr (std::is_arithmetic_v<Value>)
+            add(static_cast<double>(value));
+        else if constexpr (std::is_same_v<Value, std::optional<double>>)
+            add(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+        else
+            add(std::string_view(value));
+    }
 
     std::vector<Column> columns_;
     std::vector<Cell> cells_;

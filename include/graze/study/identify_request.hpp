@@ -47,7 +47,6 @@ struct IdentifyRequest {
     FitLoss loss = FitLoss::squares;
     double piece = 0; ///< length of the pieces that records are cut into; 0: chosen by the number of readings
     SimulationOptions simulation = FitSettings().simulation; ///< of fits
-    std::string asked_as; ///< what stands before names of settings in messages, such as "--"
 };
 
 /// The names of the estimates, in the order of IdentifyRequest::What.

@@ -17,7 +17,6 @@ struct RunLengthRequest {
     std::optional<double> after{}; ///< time that passes before that part; not with skip
     std::optional<int> skip{};     ///< periods that pass before it
     std::string phase{};           ///< cyclic state whose periods count; empty: the only one
-    std::string asked_as{};        ///< what stands before names of settings in messages, such as "--"
 };
 
 /// The two legs of a simulation: one of which nothing is shown, which may be empty, and one that is shown.

@@ -43,12 +43,10 @@ struct RampRow {
     std::optional<double> predicted_delay; ///< of a fold: see delay_of_ramp
 };
 /// @param from where all ramps begin; none: see beginning_of_ramp
-/// @param asked_as what stands before names of settings in messages, such as "--"
 /// @return a row for each rate, until options.interrupted
 /// @throws InputError for a rate that leads away from the point, and as trip_origin and ramped_trip do
 std::vector<RampRow> ramped_trips(const LossPoint& point, const std::vector<double>& rates, std::optional<double> from,
-                                  const TripEnd& end, const TripOptions& options = {},
-                                  const std::string& asked_as = "");
+                                  const TripEnd& end, const TripOptions& options = {});
 
 /// Trips about one value of the parameter, at which the motion rests. @return for each amplitude, until
 /// options.interrupted

@@ -31,9 +31,8 @@ struct NamedEnd {
 /// The usual end: of a touch the approach speed up to which the map tells of contacts, of a fold its passage.
 NamedEnd usual_end(const LossPoint& point);
 /// An approach speed at the touched surface.
-/// @param asked_as here and below what stands before names of settings in messages, such as "--"
 /// @throws InputError for a fold, which has no contact of its own
-NamedEnd end_at_speed(const LossPoint& point, double speed, const std::string& asked_as = "");
+NamedEnd end_at_speed(const LossPoint& point, double speed);
 
 /// Returns the approach speed until which the map predicts a trip: that of the requested end, bounded by the map's
 /// validity.
@@ -79,6 +78,6 @@ struct OvershootTrips {
 };
 /// @throws InputError as trip_of_touch and trip_of_fold do, and for a disturbance of a fold
 OvershootTrips overshoot_trips(const LossPoint& point, const NamedEnd& end, const std::vector<double>& overshoots,
-                               const TripOptions& options = {}, const std::string& asked_as = "");
+                               const TripOptions& options = {});
 
 } // namespace graze

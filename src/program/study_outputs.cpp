@@ -1,9 +1,10 @@
-#include "program/study_pictures.hpp"
+#include "program/study_outputs.hpp"
 #include "program/drawing.hpp"
 
 #include "graze/base/input_error.hpp"
 #include "graze/picture/figure_script.hpp"
 #include "graze/study/stored_study.hpp"
+#include "graze/study/study_table.hpp"
 #include "program/interrupt.hpp"
 #include "program/kept_inputs.hpp"
 #include "program/output_file.hpp"
@@ -156,6 +157,24 @@ DrawnPictures draw_study_pictures(const Study& study, ResultFile& file, const st
         }
     }
     return drawn;
+}
+
+WrittenTables write_study_tables(const Study& study, const ResultFile& file, const std::string& folder,
+                                 const Console& console) {
+    WrittenTables written;
+    for (const StudyTable& table : study.tables) {
+        try {
+            const std::string path = (std::filesystem::path(folder) / (table.name + ".csv")).string();
+            require_inside(path, folder);
+            if (const std::string text = csv_text(make_table(table, file)); contents_of(path) != text)
+                write_file(path, text);
+            written.paths.push_back(path);
+        } catch (const InputError& error) {
+            console.err << fmt::format("graze: warning: table '{}' was not written: {}\n", table.name, error.what());
+            written.complete = false;
+        }
+    }
+    return written;
 }
 
 } // namespace graze
