@@ -3,11 +3,12 @@
 #include "graze/base/input_error.hpp"
 #include "results/schema.hpp"
 
+#include "base/temporary_folder.hpp"
+#include "run_of_model.hpp"
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sqlite3.h>
-
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -27,17 +28,9 @@ using ::testing::HasSubstr;
 
 class ResultFileTest : public ::testing::Test {
 protected:
-    void SetUp() override {
-        folder_ =
-            std::filesystem::temp_directory_path() / ("graze-results-" + std::to_string(getpid()) + "-" +
-                                                      ::testing::UnitTest::GetInstance()->current_test_info()->name());
-        std::filesystem::remove_all(folder_);
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-    std::string path(const std::string& name = "results.sqlite") const { return (folder_ / name).string(); }
+    std::string path(const std::string& name = "results.sqlite") const { return folder_ / name; }
 
-    std::filesystem::path folder_;
+    testing::TemporaryFolder folder_;
 };
 
 RunRecord run_named(const std::string& name) {
@@ -267,10 +260,7 @@ TEST_F(ResultFileTest, RefusesUnreadableFiles) {
     EXPECT_FALSE(std::filesystem::exists(":memory:.lock"));
     EXPECT_THAT(refusal(path("none/results.sqlite"), ResultFile::Access::write), HasSubstr("cannot be written"));
     { ResultFile file(path(), ResultFile::Access::write); }
-    sqlite3* database = nullptr;
-    ASSERT_EQ(sqlite3_open(path().c_str(), &database), SQLITE_OK);
-    sqlite3_exec(database, "PRAGMA user_version = 99; DELETE FROM meta", nullptr, nullptr, nullptr);
-    sqlite3_close(database);
+    testing::change(path(), "PRAGMA user_version = 99; DELETE FROM meta");
     for (const auto access : {ResultFile::Access::read, ResultFile::Access::write})
         EXPECT_THAT(refusal(path(), access),
                     HasSubstr(fmt::format("format 99, this version of graze knows formats {} to {}",

@@ -1,18 +1,15 @@
-#include "graze/base/input_error.hpp"
 #include "graze/model/catalogue.hpp"
-#include "graze/study/runner.hpp"
 
-#include "refusal.hpp"
+#include "results/run_of_model.hpp"
+#include "study_of_every_kind.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
-#include <tuple>
 
 namespace graze {
 namespace {
@@ -63,29 +60,7 @@ set = { omega = 2.3 }
 vary = { e = [0.78, 0.8] }
 )";
 
-class BranchRun : public ::testing::Test {
-protected:
-    void SetUp() override {
-        folder_ =
-            std::filesystem::temp_directory_path() / ("graze-branch-" + std::to_string(getpid()) + "-" +
-                                                      ::testing::UnitTest::GetInstance()->current_test_info()->name());
-        std::filesystem::create_directories(folder_);
-        path_ = (folder_ / "results.sqlite").string();
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
-    std::vector<RunReport> run(const std::string& text, const RunnerOptions& options = {}) {
-        ResultFile file(path_, ResultFile::Access::write);
-        return run_study(parse_study(text, "s.toml"), file, options);
-    }
-    /// What is wrong with a study, or with the first run that failed.
-    std::string refusal(const std::string& text) {
-        return refusal_of([&] { return run(text); });
-    }
-
-    std::filesystem::path folder_;
-    std::string path_;
-};
+using BranchRun = testing::StudyFixture;
 
 TEST_F(BranchRun, TellsWhatBecomesOfTouchesAndFollowsTheBoundaryBetweenVerdicts) {
     const std::string text = R"(
@@ -111,8 +86,7 @@ start = { run = "touches", point = "VS1" }
 along = { zeta = [0.01, 0.5], omega = [0.1, 3] }
 free = { amplitude = [0, 100] }
 )";
-    for (const RunReport& report : run(text))
-        EXPECT_EQ(report.problem, "");
+    testing::expect_complete(run(text));
     const ResultFile file(path_, ResultFile::Access::read);
     const double own = std::sqrt(1 - 0.05 * 0.05);
     // The projection after one cycle of the free oscillator: an impact takes (1 + e) from the speed, e = 0.8.
@@ -237,7 +211,7 @@ TEST_F(BranchRun, CurvesAreChosenWhereSeveralMeet) {
 
 TEST_F(BranchRun, CurvesGoOnFromResonances) {
     // Henon's map x -> y, y -> a - b x - y^2: folds a = -(1 + b)^2/4, and b = 1 along the torus points.
-    const std::string model = (folder_ / "henon.toml").string();
+    const std::string model = folder_ / "henon.toml";
     std::ofstream(model) << R"([parameters]
 a = 0.3
 b = 0.3
@@ -281,8 +255,7 @@ direction = "up"
 start = { run = "folds", point = "R1-1")" +
                last + " }\nalong = { a = [-2, 5], b = [0.1, 1.5] }\n";
     };
-    for (const RunReport& report : run(study(", onto = \"NS\"")))
-        EXPECT_EQ(report.problem, "") << report.name;
+    testing::expect_complete(run(study(", onto = \"NS\"")));
     {
         const ResultFile file(path_, ResultFile::Access::read);
         const auto orbits = file.orbits("last", false);
@@ -303,8 +276,7 @@ start = { run = "folds", point = "R1-1")" +
 }
 
 TEST_F(BranchRun, FollowsSpecialPointsInTwoParameters) {
-    for (const RunReport& report : run(curves_text))
-        EXPECT_EQ(report.problem, "") << report.name;
+    testing::expect_complete(run(curves_text));
     const ResultFile file(path_, ResultFile::Access::read);
     const auto run_of = file.find_run("touches");
     ASSERT_TRUE(run_of);
@@ -382,16 +354,8 @@ TEST_F(BranchRun, OrbitsAreReadAsTheyWereWritten) {
         EXPECT_EQ(a.solution.certificate.approach_speeds, b.solution.certificate.approach_speeds);
         EXPECT_EQ(a.solution.certificate.admissible, b.solution.certificate.admissible);
         EXPECT_EQ(a.solution.half_multipliers, b.solution.half_multipliers);
-        const auto minima = [](const SpecialPoint& point) {
-            std::vector<std::tuple<std::size_t, std::size_t, double, double>> rows;
-            for (const OrbitMinimum& one : point.solution.certificate.minima)
-                rows.emplace_back(one.segment, one.event, one.time, one.value);
-            for (const EndValue& one : point.solution.certificate.end_values)
-                rows.emplace_back(one.segment, one.event, one.value, one.rate);
-            return rows;
-        };
-        EXPECT_EQ(minima(a), minima(b));
-        details += minima(a).size();
+        EXPECT_EQ(testing::details_of(a), testing::details_of(b));
+        details += testing::details_of(a).size();
     }
     EXPECT_GT(details, 10u);
     EXPECT_EQ(file.orbits("impacting", true).size(),
@@ -433,7 +397,7 @@ TEST_F(BranchRun, IsComputedOnceAndBeginsAgainWhenInterrupted) {
 TEST_F(BranchRun, StoresOrbitsThatWereNotFound) {
     std::ofstream(folder_ / "far.csv") << "segment,t,x,v,theta\n1,0,0.1,-100,0\n1,0.01,0.1,1.2,6.28\n";
     const std::string text = "name = \"s\"\nmodel = \"impact-oscillator\"\n[runs.a]\nkind = \"orbit\"\ntable = \"" +
-                             (folder_ / "far.csv").string() + "\"\nsignature = \"impact\"\n";
+                             folder_ / "far.csv" + "\"\nsignature = \"impact\"\n";
     for (int again = 0; again < 2; ++again) // also when it is found in the file
         EXPECT_EQ(run(text).front().outcome, RunOutcome::failed);
     {
@@ -457,7 +421,7 @@ TEST_F(BranchRun, AnOrbitNeedsNoParameter) {
     std::ofstream(folder_ / "free.toml") << "name = \"free\"\n[states]\nx = 2\ny = 0\n[modes.only]\n"
                                             "rates = { x = \"y\", y = \"(1 - x^2)*y - x\" }\n"
                                             "[sections.top]\nfunction = \"y\"\ndirection = \"falling\"\n";
-    const std::string head = "name = \"s\"\nmodel = \"" + (folder_ / "free.toml").string() + "\"\n[runs.a]\n";
+    const std::string head = "name = \"s\"\nmodel = \"" + folder_ / "free.toml" + "\"\n[runs.a]\n";
     EXPECT_EQ(run(head + "kind = \"orbit\"\nsection = \"top\"\n").front().outcome, RunOutcome::complete);
     const ResultFile file(path_, ResultFile::Access::read);
     const auto record = file.orbit("a", std::size_t{0});
@@ -676,24 +640,11 @@ TEST_F(BranchRun, FollowsSymmetricOrbitsByTheirHalfWhereverTheyComeFrom) {
     // The same as a table of the whole orbit.
     const Model model = load_model("impact-oscillator-two-stops");
     const Orbit whole = whole_orbit(System(model), asked->point.solution.orbit);
-    std::ofstream table(folder_ / "whole.csv");
-    table.precision(12);
-    table << "segment,t,x,v,theta,end\n";
-    double time = 0;
-    for (std::size_t k = 0; k < whole.segments(); ++k) {
-        const auto row = [&] {
-            table << k + 1 << ',' << time << ',' << whole.starts[k][0] << ',' << whole.starts[k][1] << ','
-                  << whole.starts[k][2] << ',' << end_name(model, whole.signature[k]) << '\n';
-        };
-        row();
-        time += whole.durations[k];
-        row();
-    }
-    table.close();
+    folder_.write("whole.csv", testing::table_of(model, whole));
     const std::string tabled = head +
                                "[runs.tabled]\nkind = \"continue\"\nalong = { omega = [1.1, 1.3] }\nsteps = 3\n"
                                "table = \"" +
-                               (folder_ / "whole.csv").string() + "\"\n";
+                               folder_ / "whole.csv" + "\"\n";
     run(tabled);
     const ResultFile again(path_, ResultFile::Access::read);
     EXPECT_TRUE(again.orbit("tabled", std::size_t{0})->point.solution.orbit.symmetry);

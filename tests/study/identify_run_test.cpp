@@ -4,13 +4,10 @@
 #include "graze/identify/coupling.hpp"
 #include "graze/identify/fit.hpp"
 #include "graze/model/catalogue.hpp"
-#include "graze/results/result_file.hpp"
 #include "graze/results/stored_run.hpp"
-#include "graze/study/runner.hpp"
 #include "graze/study/stored_study.hpp"
-#include "graze/study/study.hpp"
 
-#include "../base/temporary_folder.hpp"
+#include "study_fixture.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -27,7 +24,7 @@ using ::testing::HasSubstr;
 
 constexpr double w0 = 95.94, zeta = 0.016, mass = 0.6462, gap = 4.8e-3, beta1 = 1.9e-5, beta2 = 1.6e-3;
 
-class IdentifyRunTest : public ::testing::Test {
+class IdentifyRunTest : public testing::StudyFixture {
 protected:
     /// The velocity of an oscillator that is let go.
     void write_release(const std::string& name) const {
@@ -52,31 +49,14 @@ protected:
         folder_.write(name, text);
         return loads;
     }
-    std::vector<RunReport> run(const std::string& text, const RunnerOptions& options = {}) const {
-        const Study study = read_study(folder_.write("s.toml", text));
-        ResultFile file(folder_ / "results.sqlite", ResultFile::Access::write);
-        return run_study(study, file, options);
-    }
-    std::string refusal(const std::string& text) const {
-        try {
-            for (const RunReport& report : run(text))
-                if (report.outcome == RunOutcome::failed)
-                    return report.problem + "; " + report.remedy;
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
-    }
     EstimateRecord estimate(const std::string& of, const std::string& name) const {
-        const ResultFile file(folder_ / "results.sqlite", ResultFile::Access::read);
+        const ResultFile file(path_, ResultFile::Access::read);
         for (const EstimateRecord& number : file.estimates(of).numbers)
             if (number.name == name)
                 return number;
         ADD_FAILURE() << "no " << name;
         return {};
     }
-
-    testing::TemporaryFolder folder_;
 };
 
 const char* const head = R"(name = "s"
@@ -108,9 +88,7 @@ TEST_F(IdentifyRunTest, DecrementAndCouplingFindWhatTheRecordsWereMadeWith) {
     for (const char* name : {"r1.csv", "r2.csv", "r3.csv"})
         write_release(name);
     const auto loads = write_loads("loads.csv");
-    const auto reports = run(std::string(head) + loads_text);
-    for (const RunReport& report : reports)
-        EXPECT_TRUE(report.complete()) << report.name << ": " << report.problem;
+    testing::expect_complete(run(std::string(head) + loads_text));
     // Peaks by polynomials through some of 65 samples a period: six digits.
     EXPECT_NEAR(estimate("decay", "w0").estimate.value, w0, 1e-5 * w0);
     EXPECT_NEAR(estimate("decay", "zeta").estimate.value, zeta, 1e-3 * zeta);
@@ -128,7 +106,7 @@ TEST_F(IdentifyRunTest, DecrementAndCouplingFindWhatTheRecordsWereMadeWith) {
         EXPECT_NEAR(one.error, value.error, 1e-6 * value.error) << name;
     }
     EXPECT_NEAR(estimate("coupling", "beta1").estimate.value, beta1, 0.02 * beta1); // displacements are off by 1e-3
-    const ResultFile file(folder_ / "results.sqlite", ResultFile::Access::read);
+    const ResultFile file(path_, ResultFile::Access::read);
     const EstimateRecords both = file.estimates("coupling");
     const std::size_t count = both.numbers.size();
     ASSERT_EQ(both.covariance.size(), count * count);
@@ -167,8 +145,7 @@ what = "impedance"
 records = "held"
 gives = { resistance = "R", inductance = "Ll", frequency = "f" }
 )";
-    for (const RunReport& report : run(std::string(head) + loads_text + more))
-        EXPECT_TRUE(report.complete()) << report.name << ": " << report.problem;
+    testing::expect_complete(run(std::string(head) + loads_text + more));
     EXPECT_NEAR(estimate("decay", "w0").estimate.value, w0, 1e-5 * w0);
     EXPECT_EQ(estimate("decay", "w0").unit, "rad/s");
     EXPECT_NEAR(estimate("coupling", "beta1").estimate.value, beta1, 0.02 * beta1); // displacements are off by 1e-3
@@ -178,7 +155,7 @@ gives = { resistance = "R", inductance = "Ll", frequency = "f" }
     EXPECT_NEAR(estimate("coil", "Ll").estimate.value, 0.01, 1e-9);
     EXPECT_EQ(estimate("coil", "Ll").unit, "H");
     EXPECT_NEAR(estimate("coil", "f").estimate.value, 4, 1e-9);
-    const ResultFile file(folder_ / "results.sqlite", ResultFile::Access::read);
+    const ResultFile file(path_, ResultFile::Access::read);
     const EstimateRecords decay = file.estimates("decay");
     for (std::size_t i = 0; i < decay.numbers.size(); ++i)
         if (decay.numbers[i].name == "w0") {
@@ -275,7 +252,7 @@ time = 1
     run(text);
     const double found = estimate("decay", "w0").estimate.value;
     {
-        ResultFile file(folder_ / "results.sqlite", ResultFile::Access::write);
+        ResultFile file(path_, ResultFile::Access::write);
         const auto parameter = [&](const char* name, const char* what) {
             const Model model = stored_model(*file.find_run(name));
             return model.parameter_values()[model.independent_parameter(what).place()];
@@ -372,7 +349,7 @@ TEST_F(IdentifyRunTest, EstimatesThatMustNotBeUsedAreStored) {
     EXPECT_EQ(reports[4].outcome, RunOutcome::skipped);
     // V0/I0 cos(phi) of amplitudes 2 and 1, half a radian apart
     EXPECT_NEAR(estimate("coil", "R").estimate.value, 2 * std::cos(0.5), 1e-6);
-    const ResultFile file(folder_ / "results.sqlite", ResultFile::Access::read);
+    const ResultFile file(path_, ResultFile::Access::read);
     EXPECT_EQ(file.point_count("coil"), 1);
 }
 

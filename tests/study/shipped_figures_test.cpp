@@ -4,19 +4,17 @@
 #include "graze/grazing/verdict.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/results/stored_run.hpp"
-#include "graze/study/runner.hpp"
 #include "graze/study/study_catalogue.hpp"
 #include "graze/study/study_table.hpp"
 
+#include "study_fixture.hpp"
+
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -25,50 +23,26 @@ namespace graze {
 namespace {
 
 /// Some runs of a shipped study, done.
-class ShippedResults {
+class ShippedResults : public testing::StudyResults {
 public:
-    explicit ShippedResults(const std::string& name) : ShippedResults(load_study(name)) {}
-    explicit ShippedResults(Study made)
-        : study(std::move(made)),
-          path_((std::filesystem::temp_directory_path() / ("graze-figures-" + std::to_string(getpid()) + ".sqlite"))
-                    .string()) {
-        std::filesystem::remove(path_);
-        file_.emplace(path_, ResultFile::Access::write);
-    }
-    ~ShippedResults() {
-        file_.reset();
-        std::filesystem::remove(path_);
-    }
-    ShippedResults(const ShippedResults&) = delete;
-    ShippedResults& operator=(const ShippedResults&) = delete;
+    using StudyResults::StudyResults;
+    explicit ShippedResults(const std::string& name) : StudyResults(load_study(name)) {}
 
     /// With the runs that they start from.
     void run(const std::vector<std::string>& names) {
-        RunnerOptions options;
-        options.only = names;
-        for (const RunReport& report : run_study(study, *file_, options)) {
-            EXPECT_TRUE(report.complete()) << report.name << ": " << report.problem;
+        for (const RunReport& report : StudyResults::run(names))
             expect_end(report.name);
-        }
-    }
-    const ResultFile& file() const { return *file_; }
-    const StudyTable& table(const std::string& name) const {
-        const auto found = std::find_if(study.tables.begin(), study.tables.end(),
-                                        [&](const StudyTable& table) { return table.name == name; });
-        return found == study.tables.end() ? throw std::out_of_range(name) : *found;
     }
     SpecialPoint point(const std::string& run, const std::string& label) const {
-        for (const OrbitRecord& record : file_->orbits(run, true))
+        for (const OrbitRecord& record : file().orbits(run, true))
             if (record.label == label)
                 return record.point;
         throw std::out_of_range(run + ":" + label);
     }
     double monitor(const std::string& run, const std::string& name) const {
-        auto rows = StoredRun(*file_, run, {}).rows({.quantities = {name}});
+        auto rows = StoredRun(file(), run, {}).rows({.quantities = {name}});
         return rows.next() ? rows.number(0) : throw std::out_of_range(run);
     }
-
-    const Study study;
 
 private:
     /// A branch ends where something ends it, unless the study says after how many steps.
@@ -77,12 +51,9 @@ private:
             std::find_if(study.runs.begin(), study.runs.end(), [&](const StudyRun& one) { return one.name == name; });
         if (run == study.runs.end() || !run->is_branch() || run->branch().settings.steps != BranchSettings().steps)
             return;
-        for (const OrbitRecord& record : file_->orbits(name, true))
+        for (const OrbitRecord& record : file().orbits(name, true))
             EXPECT_NE(record.point.detail, name_of(BranchOutcome::steps)) << name;
     }
-
-    std::string path_;
-    std::optional<ResultFile> file_;
 };
 
 /// @param voltage its column, with lambda next to it; @param computed voltages of all grazings @param printed those in

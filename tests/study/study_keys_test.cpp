@@ -2,7 +2,7 @@
 
 #include "graze/study/study_schema.hpp"
 #include "study/json.hpp"
-#include "study/refusal.hpp"
+#include "study/study_fixture.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -72,10 +72,7 @@ TEST(StudyKeys, AreRefusedInRunsOfOtherKinds) {
         const std::vector<StudyKey> of_sweeps = study_keys(RunKind::sweep);
         if (std::any_of(of_sweeps.begin(), of_sweeps.end(), [&](const auto& one) { return one.name == key.name; }))
             continue;
-        const std::string refusal = refusal_of([&] {
-            parse_study(sweep_with(key.name + " = 1"), "s.toml");
-            return std::vector<RunReport>{};
-        });
+        const std::string refusal = testing::refusal_of([&] { parse_study(sweep_with(key.name + " = 1"), "s.toml"); });
         EXPECT_THAT(refusal, HasSubstr("runs of kind \"sweep\" have no `" + key.name + "`"));
     }
 }
@@ -85,12 +82,7 @@ TEST(StudyKeys, OfASweepAreTakenInTheirRangesAndRefusedBeyond) {
     const std::set<std::string> needs_others{"draws", "seed"};
     for (const StudyKey& key : study_keys(RunKind::sweep)) {
         const auto takes = [&](const std::string& value) {
-            try {
-                parse_study(sweep_with(key.name + " = " + value), "s.toml");
-                return true;
-            } catch (const InputError&) {
-                return false;
-            }
+            return testing::refusal_of([&] { parse_study(sweep_with(key.name + " = " + value), "s.toml"); }).empty();
         };
         if (needs_others.contains(key.name))
             continue;
