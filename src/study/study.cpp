@@ -3,7 +3,7 @@
 #include "graze/base/file_name.hpp"
 #include "graze/base/printable.hpp"
 #include "graze/base/text_file.hpp"
-#include "results/run_names.hpp"
+#include "results/schema.hpp"
 #include "study/start_point.hpp"
 #include "study/study_reader.hpp"
 

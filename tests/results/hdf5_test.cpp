@@ -23,6 +23,14 @@ namespace {
 
 /// A dataset of an HDF5 file.
 class Column {
+    template <class Property>
+    auto of_type(Property property) const {
+        const hid_t type = H5Dget_type(set_);
+        const auto result = property(type);
+        H5Tclose(type);
+        return result;
+    }
+
 public:
     Column(const std::string& file, const std::string& name)
         : file_(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT)), set_(H5Dopen2(file_, name.c_str(), H5P_DEFAULT)) {}
@@ -33,12 +41,7 @@ public:
     Column(const Column&) = delete;
     Column& operator=(const Column&) = delete;
 
-    H5T_class_t type() const {
-        const hid_t type = H5Dget_type(set_);
-        const H5T_class_t result = H5Tget_class(type);
-        H5Tclose(type);
-        return result;
-    }
+    H5T_class_t type() const { return of_type(H5Tget_class); }
     std::size_t rows() const {
         const hid_t space = H5Dget_space(set_);
         const auto rows = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
@@ -51,18 +54,8 @@ public:
         return values;
     }
     /// Number of bytes of each text; 0 if texts have variable length.
-    std::size_t width() const {
-        const hid_t type = H5Dget_type(set_);
-        const std::size_t width = H5Tis_variable_str(type) > 0 ? 0 : H5Tget_size(type);
-        H5Tclose(type);
-        return width;
-    }
-    H5T_cset_t letters() const {
-        const hid_t type = H5Dget_type(set_);
-        const H5T_cset_t letters = H5Tget_cset(type);
-        H5Tclose(type);
-        return letters;
-    }
+    std::size_t width() const { return of_type(H5Tis_variable_str) > 0 ? 0 : of_type(H5Tget_size); }
+    H5T_cset_t letters() const { return of_type(H5Tget_cset); }
     std::vector<std::string> texts() const {
         const hid_t type = H5Dget_type(set_);
         std::vector<std::string> texts;

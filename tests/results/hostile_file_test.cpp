@@ -34,18 +34,11 @@ protected:
         image = testing::contents(path);
     }
     static RunRecord run_named(const std::string& name) {
-        RunRecord run;
-        run.name = name;
-        run.kind = "basin";
-        run.model_name = "oscillator";
-        run.model = oscillator;
+        RunRecord run = testing::run_of(parse_model(oscillator, "oscillator"), name, "basin");
         run.settings = "{}";
         run.coordinates = {{"x", "m"}};
-        run.states = {{"x", "m"}, {"v", ""}};
         run.values = {{"v", ""}};
         run.samplings = {"s"};
-        run.modes = {"only"};
-        run.directions = {""};
         run.points = 20;
         return run;
     }
@@ -150,13 +143,7 @@ TEST_F(HostileFile, QueriesOnlyRead) {
                                       "SELECT writefile('/tmp/x', 'x')",
                                       "SELECT zeroblob(1000000000)",
                                       "SELECT * FROM fts3tokenize"})
-            EXPECT_THROW(
-                {
-                    auto rows = file.query(sql);
-                    rows.next();
-                },
-                InputError)
-                << sql;
+            EXPECT_THROW(file.query(sql).next(), InputError) << sql;
         EXPECT_THROW(file.query(std::string("SELECT 1\0; DELETE FROM points_r", 31)), InputError);
         for (const std::string sql :
              {"SELECT 1", "SELECT 1;", " SELECT 1 ; -- that is all", "SELECT 1;; /* all */ ;\n",

@@ -39,6 +39,16 @@ inline std::vector<std::tuple<std::size_t, std::size_t, double, double, double>>
     return rows;
 }
 
+/// All that is stored of an orbit, but what is told of its touch.
+inline auto contents_of(const OrbitRecord& record) {
+    const SpecialPoint& p = record.point;
+    const Orbit& orbit = p.solution.orbit;
+    return std::tuple(record.label, record.stable, p.type, p.detail, p.parameter, p.tangent, p.monitors,
+                      p.solution.multipliers, p.solution.half_multipliers, orbit.signature, orbit.parameters,
+                      orbit.starts, orbit.durations, p.solution.certificate.approach_speeds,
+                      p.solution.certificate.admissible, details_of(p));
+}
+
 /// Changes a file by statements of another program.
 inline void change(const std::string& path, const std::string& sql) {
     sqlite3* database = nullptr;

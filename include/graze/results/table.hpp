@@ -23,6 +23,12 @@ public:
     /// Adds one cell; cells are added row by row. A number that is not finite counts as missing.
     void add(double value);
     void add(std::string_view text);
+    /// Adds several cells.
+    template <class First, class... Others>
+    requires(sizeof...(Others) > 0) void add(const First& first, const Others&... others) {
+        add(first);
+        (add(others), ...);
+    }
     /// Adds a number; an infinite one becomes the text "inf" or "-inf".
     void add_extended(double value);
 
