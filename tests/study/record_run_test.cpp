@@ -380,10 +380,8 @@ TEST_F(RecordRunTest, ResultsHoldTheWholeStudy) {
 void run_in_pieces(const Study& study, const std::string& path, int questions) {
     for (int trial = 0; trial < 1000; ++trial) {
         ResultFile file(path, ResultFile::Access::write);
-        RunnerOptions options;
         int left = questions + trial; // so that it ends
-        options.interrupted = [&] { return left-- <= 0; };
-        const auto reports = run_study(study, file, options);
+        const auto reports = run_study(study, file, {.interrupted = [&] { return left-- <= 0; }});
         if (reports.size() == study.runs.size() && reports.back().complete())
             return;
     }
@@ -467,10 +465,9 @@ TEST_F(RecordRunTest, RefusesInvalidBenches) {
                               "[runs.r.bench]\nsettle = 1e300\n" +
                               fine));
     ResultFile file(folder_ / "settling.sqlite", ResultFile::Access::write);
-    RunnerOptions options;
     int left = 20;
-    options.interrupted = [&] { return left-- <= 0; };
-    EXPECT_EQ(run_study(study, file, options).front().outcome, RunOutcome::interrupted);
+    const auto reports = run_study(study, file, {.interrupted = [&] { return left-- <= 0; }});
+    EXPECT_EQ(reports.front().outcome, RunOutcome::interrupted);
 }
 
 } // namespace

@@ -34,14 +34,12 @@ using RunnerTest = testing::StudyFixture;
 TEST_F(RunnerTest, ComputesEachRunOnce) {
     const Study study = parse_study(text, "s.toml");
     ResultFile file(path_, ResultFile::Access::write);
-    const auto first = run_study(
-        study, file, {.jobs = 2, .one_by_one = false, .only = {}, .interrupted = {}, .progress = {}, .orbit = {}});
+    const auto first = run_study(study, file, {.jobs = 2});
     ASSERT_EQ(first.size(), 2u);
     EXPECT_EQ(first[0].points, 22u);
     EXPECT_EQ(first[0].computed, 22u);
     EXPECT_EQ(first[1].computed, 9u);
-    const auto second = run_study(
-        study, file, {.jobs = 2, .one_by_one = false, .only = {}, .interrupted = {}, .progress = {}, .orbit = {}});
+    const auto second = run_study(study, file, {.jobs = 2});
     EXPECT_EQ(second[0].computed, 0u);
     EXPECT_EQ(second[1].computed, 0u);
     EXPECT_TRUE(second[1].complete());
@@ -73,11 +71,10 @@ TEST_F(RunnerTest, ContinuesFromAnyPointToTheSameBits) {
     std::size_t interruptions = 0;
     for (std::size_t stop_after = 1;; ++stop_after) {
         std::atomic<std::size_t> done{0};
-        RunnerOptions options;
-        options.jobs = 1 + static_cast<int>(stop_after % 3);
-        options.interrupted = [&] { return done >= stop_after; };
-        options.progress = [&](const StudyProgress&) { ++done; };
-        const auto reports = run_study(study, file, options);
+        const auto reports = run_study(study, file,
+                                       {.jobs = 1 + static_cast<int>(stop_after % 3),
+                                        .interrupted = [&] { return done >= stop_after; },
+                                        .progress = [&](const StudyProgress&) { ++done; }});
         if (reports.back().complete() && reports.size() == 2)
             break;
         ++interruptions;

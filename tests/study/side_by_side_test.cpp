@@ -59,9 +59,7 @@ TEST_F(SideBySide, ResultsAndTheirOrderDoNotDependOnThreads) {
     for (const int jobs : {1, 2, 3, 8}) {
         std::filesystem::remove(path_);
         ResultFile file(path_, ResultFile::Access::write);
-        RunnerOptions options;
-        options.jobs = jobs;
-        const std::vector<RunReport> reports = run_study(study, file, options);
+        const std::vector<RunReport> reports = run_study(study, file, {.jobs = jobs});
         std::vector<std::string> here;
         for (const RunReport& report : reports)
             here.push_back(report.name + " " + std::to_string(static_cast<int>(report.outcome)) + " " +
@@ -140,12 +138,9 @@ TEST_F(SideBySide, ReportsProgressFromOneThreadAtATimeWithRightCounts) {
 TEST_F(SideBySide, AnExceptionOfTheCallerEndsAllRuns) {
     const Study study = parse_study(text, "s.toml");
     ResultFile file(path_, ResultFile::Access::write);
-    RunnerOptions options;
-    options.jobs = 3;
-    options.progress = [](const StudyProgress&) { throw std::runtime_error("enough"); };
-    EXPECT_THROW(run_study(study, file, options), std::runtime_error);
-    options.progress = {};
-    run_study(study, file, options);
+    const auto enough = [](const StudyProgress&) { throw std::runtime_error("enough"); };
+    EXPECT_THROW(run_study(study, file, {.jobs = 3, .progress = enough}), std::runtime_error);
+    run_study(study, file, {.jobs = 3});
     ResultFile other(folder_ / "other.sqlite", ResultFile::Access::write);
     run_study(study, other, {});
     EXPECT_EQ(bits_of(file), bits_of(other));

@@ -63,9 +63,7 @@ TEST_F(StoredStudyTest, HasRunsThatWereNeverBegun) {
     const Study study = stored_study(whole);
     {
         ResultFile file(path("part.sqlite"), ResultFile::Access::write);
-        RunnerOptions options;
-        options.only = {"orbit"};
-        run_study(study, file, options);
+        run_study(study, file, {.only = {"orbit"}});
         ASSERT_EQ(file.runs().size(), 1U);
     }
     const Study again = stored_study(ResultFile(path("part.sqlite"), ResultFile::Access::read));
@@ -98,10 +96,10 @@ TEST_F(StoredStudyTest, AnInterruptedSweepContinues) {
         whole = bits_of(file);
         ResultFile half(path("half.sqlite"), ResultFile::Access::write);
         std::size_t done = 0;
-        RunnerOptions options;
-        options.interrupted = [&] { return done > 6; };
-        options.progress = [&](const StudyProgress&) { ++done; };
-        EXPECT_EQ(run_study(stored_study(file), half, options).back().outcome, RunOutcome::interrupted);
+        const auto reports =
+            run_study(stored_study(file), half,
+                      {.interrupted = [&] { return done > 6; }, .progress = [&](const StudyProgress&) { ++done; }});
+        EXPECT_EQ(reports.back().outcome, RunOutcome::interrupted);
     }
     std::filesystem::remove(path("results.sqlite"));
     ResultFile half(path("half.sqlite"), ResultFile::Access::write);
@@ -139,9 +137,7 @@ TEST_F(StoredStudyTest, ShippedStudiesAreStoredWhole) {
     for (const std::string& name : shipped_studies()) {
         const Study study = load_study(name);
         ResultFile file(path(name), ResultFile::Access::write);
-        RunnerOptions options;
-        options.interrupted = [] { return true; };
-        run_study(study, file, options);
+        run_study(study, file, {.interrupted = [] { return true; }});
         const Study stored = stored_study(file);
         ASSERT_FALSE(stored.runs.empty());
         for (const StudyRun& run : stored.runs)

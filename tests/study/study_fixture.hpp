@@ -62,9 +62,7 @@ public:
 
     /// With the runs that they start from.
     std::vector<RunReport> run(const std::vector<std::string>& names) {
-        RunnerOptions options;
-        options.only = names;
-        const std::vector<RunReport> reports = run_study(study, file_, options);
+        const std::vector<RunReport> reports = run_study(study, file_, {.only = names});
         expect_complete(reports);
         return reports;
     }

@@ -1,5 +1,6 @@
 #include "graze/study/study_keys.hpp"
 
+#include "graze/results/name_advice.hpp"
 #include "graze/study/study_schema.hpp"
 #include "study/json.hpp"
 #include "study/study_fixture.hpp"
@@ -18,13 +19,6 @@ using ::testing::Field;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-std::vector<RunKind> all_kinds() {
-    std::vector<RunKind> kinds;
-    for (std::size_t kind = 0; kind < kinds_of_runs().size(); ++kind)
-        kinds.push_back(static_cast<RunKind>(kind));
-    return kinds;
-}
-
 std::string standard_of(RunKind kind, const std::string& name) {
     for (const StudyKey& key : study_keys(kind))
         if (key.name == name)
@@ -40,7 +34,8 @@ std::string sweep_with(const std::string& line) {
 }
 
 TEST(StudyKeys, EachIsListedOnceWithAMeaning) {
-    for (const RunKind kind : all_kinds()) {
+    for (const std::string& name : kinds_of_runs()) {
+        const RunKind kind = run_kind(name).value();
         std::set<std::string> names;
         for (const StudyKey& key : study_keys(kind)) {
             EXPECT_TRUE(names.insert(key.name).second) << name_of(kind) << " " << key.name;
@@ -117,10 +112,8 @@ TEST(StudySchema, HasTheKeysOfEveryKind) {
     ASSERT_EQ(kinds.size(), kinds_of_runs().size());
     for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
         EXPECT_EQ(kinds[kind].find("if")->find("properties")->find("kind")->find("const")->text, kinds_of_runs()[kind]);
-        std::vector<std::string> names;
-        for (const StudyKey& key : study_keys(static_cast<RunKind>(kind)))
-            names.push_back(key.name);
-        EXPECT_EQ(kinds[kind].find("then")->find("properties")->names, names);
+        EXPECT_EQ(kinds[kind].find("then")->find("properties")->names,
+                  names_of(study_keys(static_cast<RunKind>(kind))));
     }
 }
 
