@@ -2,7 +2,7 @@
 #include "graze/picture/figure_script.hpp"
 #include "graze/picture/result_picture.hpp"
 #include "graze/results/orbit_motion.hpp"
-#include "graze/results/state_columns.hpp"
+#include "graze/results/quantity_evaluator.hpp"
 #include "graze/results/stored_orbit.hpp"
 #include "program/commands.hpp"
 #include "program/drawing.hpp"
@@ -21,10 +21,8 @@ constexpr std::size_t default_samples = 200;
 
 Table orbit_table(const Model& model, const std::vector<SegmentMotion>& motion,
                   const std::vector<RequestedQuantity>& quantities) {
-    std::vector<Table::Column> columns{{"segment", ""}, {"mode", ""}, {"end", ""}, {"t", model.time_unit}};
     StateColumns states(model, quantities);
-    states.declare(columns);
-    Table table(columns);
+    Table table(states.after({{"segment", ""}, {"mode", ""}, {"end", ""}, {"t", model.time_unit}}));
     for (std::size_t s = 0; s < motion.size(); ++s)
         for (std::size_t i = 0; i < motion[s].times.size(); ++i) {
             table.add(s + 1, model.modes[motion[s].mode].name, motion[s].end, motion[s].times[i]);

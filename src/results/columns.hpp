@@ -3,9 +3,11 @@
 #include "graze/results/result_file.hpp"
 #include "results/database.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,6 +46,16 @@ struct ColumnKind {
     bool may_lack = false;   ///< in older files: what reads it takes nothing for an absent value
 };
 
+/// A column that views over all runs show.
+constexpr ColumnKind shown(const char* name, ColumnUnit unit = ColumnUnit::none) {
+    return {name, ColumnType::real, unit, true};
+}
+
+/// A column that they do not show.
+constexpr ColumnKind kept(const char* name, ColumnUnit unit = ColumnUnit::none) {
+    return {name, ColumnType::real, unit};
+}
+
 /// A column that was not always there.
 constexpr ColumnKind added(ColumnKind kind, const char* former = "") {
     kind.may_lack = true;
@@ -64,6 +76,13 @@ public:
     void nothing() { row_->bind_null(at_++); }
     /// An empty text becomes a missing cell.
     void word(std::string_view value) { value.empty() ? nothing() : text(value); }
+    void optional(const std::optional<double>& value) { value ? real(*value) : nothing(); }
+    /// An index, which begins at 1 in the file.
+    void position(std::size_t index) { whole(index + 1); }
+    void reals(const std::vector<double>& values) {
+        for (const double value : values)
+            real(value);
+    }
 
 private:
     Statement* row_;
@@ -81,6 +100,14 @@ public:
     std::size_t whole() { return static_cast<std::size_t>(row_->integer(at_++)); }
     bool truth() { return row_->integer(at_++) != 0; }
     std::string text() { return row_->text(at_++); }
+    std::optional<double> optional() { return is_nothing() ? skip(), std::nullopt : std::optional(number()); }
+    std::size_t position() { return static_cast<std::size_t>(std::max<std::int64_t>(row_->integer(at_++), 1) - 1); }
+    /// So many reals. @param values receives them
+    void reals(std::vector<double>& values, std::size_t count) {
+        values.resize(count);
+        for (double& value : values)
+            value = real();
+    }
     void skip() { ++at_; }
     void move_to(int column) { at_ = column; }
 
@@ -100,6 +127,62 @@ struct ColumnOf {
 
 template <class Context, class Record>
 using ColumnsOf = std::vector<ColumnOf<Context, Record>>;
+
+struct Always {
+    bool operator()(const auto& /*record*/) const { return true; }
+};
+
+/// A column of what is a member of records. It can be a column of any context.
+/// @tparam write, read functions of CellWriter and CellReader
+/// @tparam Member, Holds function objects without state: where the member of a record is, and whether it has one
+template <auto write, auto read, class Member, class Holds = Always>
+struct MemberColumn {
+    ColumnKind kind;
+
+    template <class Context, class Record>
+    operator ColumnOf<Context, Record>() const { // NOLINT(google-explicit-constructor)
+        return {kind,
+                [](const Context&, const Record& record, CellWriter& cell) {
+                    Holds()(record) ? (cell.*write)(*Member()(record)) : cell.nothing();
+                },
+                [](const Context&, Record& record, CellReader& cell) { *Member()(record) = (cell.*read)(); }};
+    }
+};
+
+/// Makes columns of members, of the type of their cells.
+template <ColumnType type, auto write, auto read>
+struct ColumnMaker {
+    template <class Member>
+    constexpr MemberColumn<write, read, Member> operator()(ColumnKind kind, Member /*member*/) const {
+        kind.type = type;
+        return {kind};
+    }
+};
+inline constexpr ColumnMaker<ColumnType::text, &CellWriter::text, &CellReader::text> text_column;
+inline constexpr ColumnMaker<ColumnType::text, &CellWriter::word, &CellReader::text> word_column;
+inline constexpr ColumnMaker<ColumnType::whole, &CellWriter::whole, &CellReader::whole> whole_column;
+inline constexpr ColumnMaker<ColumnType::whole, &CellWriter::truth, &CellReader::truth> truth_column;
+inline constexpr ColumnMaker<ColumnType::whole, &CellWriter::position, &CellReader::position> position_column;
+inline constexpr ColumnMaker<ColumnType::real, &CellWriter::real, &CellReader::number>
+    number_column; ///< missing numbers are read as 0
+inline constexpr ColumnMaker<ColumnType::real, &CellWriter::real, &CellReader::real> real_column; ///< and here as NaN
+inline constexpr ColumnMaker<ColumnType::real, &CellWriter::extended, &CellReader::number> extended_column;
+inline constexpr ColumnMaker<ColumnType::real, &CellWriter::optional, &CellReader::optional> optional_column;
+
+/// The same column, whose cells are missing in other records.
+template <class Holds, auto write, auto read, class Member>
+MemberColumn<write, read, Member, Holds> only_if(Holds /*holds*/, const MemberColumn<write, read, Member>& column) {
+    return {column.kind};
+}
+
+/// The enumerator of this name, of those up to the last one. @return `otherwise` for other names
+template <class Enumeration>
+Enumeration enumerator_named(const std::string& name, Enumeration last, Enumeration otherwise) {
+    for (int i = 0; i <= static_cast<int>(last); ++i)
+        if (name == name_of(static_cast<Enumeration>(i)))
+            return static_cast<Enumeration>(i);
+    return otherwise;
+}
 
 /// Number of columns that a table of a run has of this kind.
 inline std::size_t width_of(const ColumnKind& kind, const RunRecord& run) {

@@ -4,9 +4,14 @@
 
 #include <fmt/format.h>
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 
 namespace graze {
@@ -43,6 +48,23 @@ void require_plain_file(const std::string& path, bool writing) {
 }
 
 } // namespace
+
+WriteLock::WriteLock(const std::string& path) : path_(path + ".lock") {
+    file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (file_ < 0)
+        throw FileError(path, std::string("it cannot be written (") + std::strerror(errno) + ")",
+                        "look at the permissions of the folder, or choose another one");
+    if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
+        ::close(file_);
+        throw FileError(path, "another graze writes to this result file",
+                        "wait until it has ended, or choose another folder");
+    }
+}
+
+WriteLock::~WriteLock() {
+    // The file is not removed: another process may have just opened it, and would then lock a file without a name.
+    ::close(file_);
+}
 
 void throw_database_error(int code, const std::string& message, const std::string& path) {
     const Place place{path, 0, 0};
@@ -142,7 +164,7 @@ Statement Database::prepare(const std::string& sql) const {
 Statement Database::prepare_query(const std::string& sql) const {
     if (guard_->only_reads())
         return {database_.get(), path_, sql, guard_};
-    const QueryGuard::ReadingOnly reading(database_.get());
+    const std::shared_ptr<void> reading = QueryGuard::reading_only(database_.get());
     return {database_.get(), path_, sql, guard_};
 }
 

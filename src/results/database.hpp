@@ -13,6 +13,20 @@
 
 namespace graze {
 
+/// Exclusive right of one process to write a file. Released by the destructor, or when the process ends.
+class WriteLock {
+public:
+    /// @throws InputError if another process has the right, or the folder cannot be written
+    explicit WriteLock(const std::string& path);
+    ~WriteLock();
+    WriteLock(const WriteLock&) = delete;
+    WriteLock& operator=(const WriteLock&) = delete;
+
+private:
+    std::string path_;
+    int file_ = -1;
+};
+
 /// A prepared statement, finalized by its destructor.
 class Statement {
 public:
@@ -35,6 +49,18 @@ public:
     Statement& bind_extended(int position, double value);
     /// Runs a statement that gives no rows, and resets it.
     void run();
+    /// The same with values, which are bound from left to right.
+    template <class First, class... Others>
+    void run(const First& first, const Others&... others) {
+        bind_all(first, others...);
+        run();
+    }
+    template <class... Values>
+    Statement& bind_all(const Values&... values) {
+        int position = 0;
+        (bind(++position, values), ...);
+        return *this;
+    }
     /// Resets a statement whose rows have been read, so that it can be run again.
     void reset();
 

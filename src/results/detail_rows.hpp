@@ -15,10 +15,7 @@ template <class Context, class Record>
 void write_details(Statement& statement, const ColumnsOf<Context, Record>& columns, const Context& context,
                    const RunRecord& run, std::size_t point, const std::vector<Record>& records) {
     for (std::size_t position = 0; position < records.size(); ++position) {
-        CellWriter cells(statement);
-        cells.text(run.name);
-        cells.whole(point);
-        cells.whole(position);
+        statement.bind_all(run.name, point, position);
         write_row(statement, columns, context, records[position], 4);
     }
 }

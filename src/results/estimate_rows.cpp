@@ -1,6 +1,6 @@
+#include "base/special_numbers.hpp"
 #include "graze/base/file_name.hpp"
 #include "graze/base/require.hpp"
-#include "graze/results/estimate_record.hpp"
 #include "graze/results/result_file.hpp"
 #include "results/point_columns.hpp"
 #include "results/result_file_state.hpp"
@@ -14,33 +14,23 @@ void ResultFile::set_estimates(const std::string& run, const EstimateRecords& fo
     state_->at_once([&] {
         const Database& database = state_->database;
         for (const char* table : {"estimates", "covariances"})
-            database.prepare(fmt::format("DELETE FROM {} WHERE run = ?", table)).bind(1, std::string_view(run)).run();
+            database.prepare(fmt::format("DELETE FROM {} WHERE run = ?", table)).run(run);
         Statement insert = database.prepare(insert_into("estimates", 10));
         for (std::size_t i = 0; i < count; ++i) {
             const EstimateRecord& number = found.numbers[i];
             const Estimate& estimate = number.estimate;
             const bool known = estimate.freedom > 0;
-            CellWriter cells(insert);
-            cells.text(run);
-            cells.whole(i);
-            cells.text(number.name);
-            cells.text(number.unit);
-            cells.real(estimate.value);
-            for (const double value : {estimate.error, estimate.value - estimate.half_width(),
-                                       estimate.value + estimate.half_width(), estimate.freedom})
-                known ? cells.real(value) : cells.nothing();
-            cells.word(number.note);
+            const auto if_known = [&](double value) { return known ? value : not_a_number; };
+            insert.bind_all(run, i, number.name, number.unit, estimate.value, if_known(estimate.error),
+                            if_known(estimate.value - estimate.half_width()),
+                            if_known(estimate.value + estimate.half_width()), if_known(estimate.freedom), number.note);
+            if (number.note.empty())
+                insert.bind_null(10);
             insert.run();
         }
         Statement pair = database.prepare(insert_into("covariances", 4));
-        for (std::size_t i = 0; i < found.covariance.size(); ++i) {
-            CellWriter cells(pair);
-            cells.text(run);
-            cells.whole(i / count);
-            cells.whole(i % count);
-            cells.real(found.covariance[i]);
-            pair.run();
-        }
+        for (std::size_t i = 0; i < found.covariance.size(); ++i)
+            pair.run(run, i / count, i % count, found.covariance[i]);
     });
 }
 

@@ -161,11 +161,7 @@ std::vector<std::string> bring_into_this_form(const Database& database, const st
         for (const auto& [group, place] : places_of_own_names) {
             const std::vector<std::string> names = RunTables(run).names_of(group);
             for (std::size_t i = 0; i < names.size(); ++i)
-                own_name.bind(1, std::string_view(names[i]))
-                    .bind(2, std::string_view(run.name))
-                    .bind(3, place)
-                    .bind(4, i)
-                    .run();
+                own_name.run(names[i], run.name, place, i);
         }
         for (const Counterpart& column : form.columns)
             if (!column.there.empty() && column.there != column.name)

@@ -239,34 +239,30 @@ void write_estimates(hid_t group, const StoredRun& run, const std::string& path)
     if (run.file.estimates(run.record.name).numbers.empty())
         return;
     const std::string where = " WHERE run = " + text_literal(run.record.name);
-    using enum ColumnType;
+    const auto whole = [](const char* name) { return ColumnPlan{name, "", ColumnType::whole}; };
+    const auto real = [](const char* name) { return ColumnPlan{name, "", ColumnType::real}; };
+    const auto text = [](const char* name) { return ColumnPlan{name, "", ColumnType::text}; };
     write_table(group, "estimates", run.file,
                 "SELECT position, name, unit, value, error, low, high, freedom, note FROM estimates" + where +
                     " ORDER BY position",
-                {{"position", "", whole},
-                 {"name", "", text},
-                 {"unit", "", text},
-                 {"value", "", real},
-                 {"error", "", real},
-                 {"low", "", real},
-                 {"high", "", real},
-                 {"freedom", "", real},
-                 {"note", "", text}},
+                {whole("position"), text("name"), text("unit"), real("value"), real("error"), real("low"), real("high"),
+                 real("freedom"), text("note")},
                 path);
     write_table(group, "covariances", run.file,
                 "SELECT position, other, covariance FROM covariances" + where + " ORDER BY position, other",
-                {{"position", "", whole}, {"other", "", whole}, {"covariance", "", real}}, path);
+                {whole("position"), whole("other"), real("covariance")}, path);
 }
 
 void write_run(hid_t output, const StoredRun& stored, const std::string& path) {
     const RunRecord& run = stored.record;
     const Handle group(H5Gcreate2(output, run.name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path);
-    write_attribute(group.id(), "kind", run.kind, path);
-    write_attribute(group.id(), "model_name", run.model_name, path);
-    write_attribute(group.id(), "model", run.model, path);
-    write_attribute(group.id(), "settings", run.settings, path);
-    write_attribute(group.id(), "fingerprint", run.fingerprint, path);
-    write_attribute(group.id(), "version", run.version, path);
+    for (const auto& [name, text] : {std::pair("kind", &run.kind),
+                                     {"model_name", &run.model_name},
+                                     {"model", &run.model},
+                                     {"settings", &run.settings},
+                                     {"fingerprint", &run.fingerprint},
+                                     {"version", &run.version}})
+        write_attribute(group.id(), name, *text, path);
     const RunTables tables(run);
     write_table(group.id(), run.is_branch() ? "orbits" : "points", stored.file,
                 tables.select_point() + " ORDER BY number", plans_of(tables.point_columns, stored), path);

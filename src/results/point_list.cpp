@@ -7,11 +7,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
 #include <utility>
+#include <variant>
 
 namespace graze {
 
@@ -96,177 +98,157 @@ PointList listed_points(const ResultFile& file, const PointListRequest& request)
 
 namespace {
 
-/// Fills the table of points: for people with the main columns, for CSV and JSON with every column.
+/// The table of points: for people with the main columns, for CSV and JSON with every column.
 class PointTable {
 public:
     PointTable(const PointList& list, const PointTableStyle& style)
         : list_(list), for_people_(style.for_people), brief_(style.brief && for_people_), digits_(style.digits) {
-        const auto any = [&](auto holds) { return std::any_of(list.points.begin(), list.points.end(), holds); };
-        with_symmetry_ = !for_people_ ||
-                         any([](const ListedPoint& p) { return p.record.point.solution.orbit.symmetry.has_value(); });
-        with_reason_ = !for_people_ || any([](const ListedPoint& p) { return is_unphysical(p.record); });
-        with_bracket_ = !for_people_ || any([](const ListedPoint& p) { return !p.record.point.located; });
-        with_detail_ = !for_people_ || any([](const ListedPoint& p) {
-            return !p.record.point.detail.empty() || is_unphysical(p.record);
-        });
-        with_name_ = any(
-            [&](const ListedPoint& p) { return list.run_of(p).record.point_name(p.record.label) != p.record.label; });
-        with_verdict_ = any([](const ListedPoint& p) { return p.record.touch.has_value(); });
-        for (const ListedPoint& p : list.points) {
-            segments_ = std::max(segments_, p.record.point.solution.orbit.segments());
-            multipliers_ = std::max(multipliers_, p.record.point.solution.multipliers.size());
-        }
-        collect_monitors();
-        with_type_ = !for_people_ || any([](const ListedPoint& p) { return p.record.label.empty(); });
-        with_run_ = !brief_ || list.runs.size() != 1;
-        with_parameter_ = list.followed.empty() &&
-                          any([&](const ListedPoint& p) { return !followed_parameter(list.run_of(p).record).empty(); });
+        show_names();
+        show_orbits();
+        show_evidence();
+        show_touches();
+        show(!for_people_ ||
+                 any([](const auto& p) { return !p.record.point.detail.empty() || is_unphysical(p.record); }),
+             "detail", "", [this](const auto& p) { return cut(detail_of(p.record)); });
+        show_monitors();
+        show(!for_people_, "residual", "", [](const auto& p) { return p.record.point.solution.residual; });
+        for (std::size_t c = 0; c < stored_columns().size(); ++c)
+            show(!for_people_, stored_columns()[c], "", [c](const auto& p) { return p.stored[c]; });
     }
 
-    Table make() {
-        declare();
-        table_ = Table(columns_);
+    Table make() const {
+        Table table(columns_);
         for (const ListedPoint& point : list_.points)
-            add(point);
-        return std::move(table_);
+            for (const auto& value : values_)
+                std::visit([&](const auto& cell) { table.add(cell); }, value(point));
+        return table;
     }
 
 private:
-    void declare() {
-        add_columns({"run"}, with_run_);
-        add_columns({"label"}, true);
-        add_columns({"name"}, with_name_);
-        add_columns({"type"}, with_type_);
-        if (with_parameter_)
-            for (const char* name : {"parameter", "value"})
-                columns_.push_back({name, ""});
-        else if (!list_.followed.empty())
-            columns_.push_back({list_.followed, unit_of(list_.followed)});
-        for (const std::string& name : list_.differing)
-            columns_.push_back({name, unit_of(name)});
-        const std::string time = list_.runs.empty() ? "" : list_.runs.front().model.time_unit;
-        columns_.push_back({"period", time});
-        if (for_people_)
-            columns_.push_back({"durations", time});
-        for (std::size_t s = 1; !for_people_ && s <= segments_; ++s)
-            columns_.push_back({fmt::format("duration_{}", s), time});
-        add_columns({"signature"}, true);
-        add_columns({"symmetry"}, with_symmetry_);
-        add_columns({"stable", "multiplier"}, true);
-        for (std::size_t m = 1; !for_people_ && m <= multipliers_; ++m)
-            for (const char* part : {"real", "imaginary"})
-                columns_.push_back({fmt::format("multiplier_{}_{}", m, part), ""});
-        add_columns({for_people_ ? "physical" : "admissible"}, with_reason_);
-        add_columns({"reason"}, !for_people_);
-        add_columns({"located", "low", "high"}, with_bracket_);
-        add_columns({"touch_verdict", "touch_next_contact"}, with_verdict_);
-        add_columns({"touch_map", "touch_verdict_reason", "touch_projection_1", "touch_growth", "touch_jump_growth",
-                     "touch_reach", "touch_clearance_rate", "touch_speed_factor", "touch_fold_distance"},
-                    with_verdict_ && !for_people_);
-        add_columns({"detail"}, with_detail_);
-        add_monitors();
-        add_columns({"residual"}, !for_people_);
-        add_columns(stored_columns(), !for_people_);
+    using Cell = std::variant<double, std::string>;
+
+    template <class Value>
+    void show(bool wanted, const std::string& name, const std::string& unit, const Value& value) {
+        if (wanted) {
+            columns_.push_back({name, unit});
+            values_.push_back(value);
+        }
     }
-    /// Collects the monitors of all runs by name; for people without the period, which has its own column.
-    void collect_monitors() {
+    template <class Holds>
+    bool any(const Holds& holds) const {
+        return std::any_of(list_.points.begin(), list_.points.end(), holds);
+    }
+    const RunRecord& run_of(const ListedPoint& point) const { return list_.run_of(point).record; }
+    const Model& model_of(const ListedPoint& point) const { return list_.run_of(point).model; }
+
+    void show_names() {
+        show(!brief_ || list_.runs.size() != 1, "run", "", [this](const auto& p) { return run_of(p).name; });
+        show(true, "label", "", [](const auto& p) { return p.record.label; });
+        const auto name = [this](const auto& p) { return run_of(p).point_name(p.record.label); };
+        show(any([&](const auto& p) { return name(p) != p.record.label; }), "name", "", name);
+        show(!for_people_ || any([](const auto& p) { return p.record.label.empty(); }), "type", "",
+             [](const auto& p) { return std::string(short_name(p.record.point.type)); });
+        const auto followed = [this](const auto& p) { return followed_parameter(run_of(p)); };
+        const bool several = list_.followed.empty() && any([&](const auto& p) { return !followed(p).empty(); });
+        show(several, "parameter", "", followed);
+        show(several, "value", "", [this, followed](const auto& p) {
+            return followed(p).empty() ? not_a_number : value_of_parameter(list_, p, followed(p));
+        });
+        std::vector<std::string> parameters = list_.differing;
+        if (!list_.followed.empty())
+            parameters.insert(parameters.begin(), list_.followed);
+        for (const std::string& one : parameters)
+            show(true, one, list_.runs.empty() ? "" : list_.runs.front().unit(one),
+                 [this, one](const auto& p) { return value_of_parameter(list_, p, one); });
+    }
+    void show_orbits() {
+        std::size_t segments = 0, multipliers = 0; // greatest numbers at any point
+        for (const ListedPoint& p : list_.points) {
+            segments = std::max(segments, p.record.point.solution.orbit.segments());
+            multipliers = std::max(multipliers, p.record.point.solution.multipliers.size());
+        }
+        const std::string time = list_.runs.empty() ? "" : list_.runs.front().model.time_unit;
+        const auto orbit = [](const auto& p) -> const Orbit& { return p.record.point.solution.orbit; };
+        show(true, "period", time, [orbit](const auto& p) { return orbit(p).period(); });
+        show(for_people_, "durations", time, [orbit](const auto& p) { return numbers_text(orbit(p).durations, 6); });
+        for (std::size_t s = 0; s < segments; ++s)
+            show(!for_people_, fmt::format("duration_{}", s + 1), time,
+                 [orbit, s](const auto& p) { return s < orbit(p).segments() ? orbit(p).durations[s] : not_a_number; });
+        show(true, "signature", "",
+             [this, orbit](const auto& p) { return to_string(model_of(p), orbit(p).signature); });
+        show(!for_people_ || any([orbit](const auto& p) { return orbit(p).symmetry.has_value(); }), "symmetry", "",
+             [this, orbit](const auto& p) {
+                 return orbit(p).symmetry ? model_of(p).symmetries[*orbit(p).symmetry].name : "";
+             });
+        show(true, "stable", "", [this](const auto& p) { return truth(p.record.stable); });
+        show(true, "multiplier", "", [this](const auto& p) { return multiplier_of(p.record.point.solution); });
+        for (std::size_t m = 0; m < multipliers; ++m)
+            for (const bool real : {true, false})
+                show(!for_people_, fmt::format("multiplier_{}_{}", m + 1, real ? "real" : "imaginary"), "",
+                     [m, real](const auto& p) {
+                         const auto& all = p.record.point.solution.multipliers;
+                         return extended(m >= all.size() ? not_a_number : real ? all[m].real() : all[m].imag());
+                     });
+    }
+    void show_evidence() {
+        const auto certificate = [](const auto& p) -> const Certificate& {
+            return p.record.point.solution.certificate;
+        };
+        if (for_people_)
+            show(any([](const auto& p) { return is_unphysical(p.record); }), "physical", "",
+                 [certificate](const auto& p) {
+                     return certificate(p).admissible ? "yes" : is_unphysical(p.record) ? "no" : "limit";
+                 });
+        else
+            show(true, "admissible", "",
+                 [this, certificate](const auto& p) { return truth(certificate(p).admissible); });
+        show(!for_people_, "reason", "", [certificate](const auto& p) { return certificate(p).reason; });
+        const bool bracket = !for_people_ || any([](const auto& p) { return !p.record.point.located; });
+        show(bracket, "located", "", [this](const auto& p) { return truth(p.record.point.located); });
+        show(bracket, "low", "", [](const auto& p) { return p.record.point.bracket.first; });
+        show(bracket, "high", "", [](const auto& p) { return p.record.point.bracket.second; });
+    }
+    void show_touches() {
+        const bool verdicts = any([](const auto& p) { return p.record.touch.has_value(); });
+        const auto show_text = [&](bool wanted, const char* name, std::string TouchFindings::*text) {
+            show(wanted, name, "", [text](const auto& p) { return p.record.touch ? (*p.record.touch).*text : ""; });
+        };
+        show_text(verdicts, "touch_verdict", &TouchFindings::verdict);
+        show(verdicts, "touch_next_contact", "", [](const auto& p) {
+            const std::size_t next = p.record.touch ? p.record.touch->next_contact : 0;
+            return next > 0 ? static_cast<double>(next) : not_a_number;
+        });
+        show_text(verdicts && !for_people_, "touch_map", &TouchFindings::map);
+        show_text(verdicts && !for_people_, "touch_verdict_reason", &TouchFindings::reason);
+        for (const auto& [name, number] : {std::pair("touch_projection_1", &TouchFindings::projection),
+                                           {"touch_growth", &TouchFindings::growth},
+                                           {"touch_jump_growth", &TouchFindings::jump_growth},
+                                           {"touch_reach", &TouchFindings::reach},
+                                           {"touch_clearance_rate", &TouchFindings::clearance_rate},
+                                           {"touch_speed_factor", &TouchFindings::speed_factor},
+                                           {"touch_fold_distance", &TouchFindings::fold_distance}})
+            show(verdicts && !for_people_, name, "", [number = number](const auto& p) {
+                return p.record.touch ? ((*p.record.touch).*number).value_or(not_a_number) : not_a_number;
+            });
+    }
+    /// The monitors of all runs by name; for people without the period, which has its own column. A monitor with the
+    /// name of another column gets a number appended to its name, as in the result file.
+    void show_monitors() {
+        std::vector<ResultColumn> monitors;
         for (const StoredRun& run : list_.runs)
             for (const ResultColumn& value : run.record.values)
-                if (std::none_of(monitors_.begin(), monitors_.end(),
-                                 [&](const ResultColumn& one) { return one.name == value.name; }) &&
+                if (std::ranges::find(monitors, value.name, &ResultColumn::name) == monitors.end() &&
                     !(for_people_ && value.name == "period"))
-                    monitors_.push_back(value);
-    }
-    /// A monitor with the name of another column gets a number appended to its name, as in the result file.
-    void add_monitors() {
-        for (const ResultColumn& monitor : monitors_) {
+                    monitors.push_back(value);
+        for (const ResultColumn& monitor : monitors) {
             std::string name = monitor.name;
-            for (int i = 2; std::any_of(columns_.begin(), columns_.end(),
-                                        [&](const Table::Column& column) { return column.name == name; });
-                 ++i)
+            for (int i = 2; std::ranges::find(columns_, name, &Table::Column::name) != columns_.end(); ++i)
                 name = fmt::format("{}_{}", monitor.name, i);
-            columns_.push_back({name, monitor.unit});
+            show(true, name, monitor.unit,
+                 [this, of = monitor.name](const auto& p) { return extended(monitor_of(p, of)); });
         }
-    }
-    void add_columns(const std::vector<std::string>& names, bool wanted) {
-        for (const std::string& name : names)
-            if (wanted)
-                columns_.push_back({name, ""});
-    }
-    std::string unit_of(const std::string& name) const {
-        return list_.runs.empty() ? "" : list_.runs.front().unit(name);
     }
 
-    void add(const ListedPoint& point) {
-        const OrbitRecord& record = point.record;
-        const OrbitSolution& solution = record.point.solution;
-        const RunRecord& run = list_.run_of(point).record;
-        if (with_run_)
-            table_.add(run.name);
-        table_.add(record.label);
-        if (with_name_)
-            table_.add(run.point_name(record.label));
-        if (with_type_)
-            table_.add(short_name(record.point.type));
-        const std::string followed = followed_parameter(run);
-        if (with_parameter_)
-            table_.add(followed);
-        if (with_parameter_)
-            table_.add(followed.empty() ? not_a_number : value_of_parameter(list_, point, followed));
-        else if (!list_.followed.empty())
-            table_.add(value_of_parameter(list_, point, list_.followed));
-        for (const std::string& name : list_.differing)
-            table_.add(value_of_parameter(list_, point, name));
-        table_.add(solution.orbit.period());
-        if (for_people_)
-            table_.add(numbers_text(solution.orbit.durations, 6));
-        for (std::size_t s = 0; !for_people_ && s < segments_; ++s)
-            table_.add(s < solution.orbit.segments() ? solution.orbit.durations[s] : not_a_number);
-        table_.add(to_string(list_.run_of(point).model, solution.orbit.signature));
-        if (with_symmetry_)
-            table_.add(solution.orbit.symmetry ? list_.run_of(point).model.symmetries[*solution.orbit.symmetry].name
-                                               : "");
-        add_truth(record.stable);
-        add_multiplier(solution);
-        for (std::size_t m = 0; !for_people_ && m < multipliers_; ++m) {
-            const bool known = m < solution.multipliers.size();
-            table_.add_extended(known ? solution.multipliers[m].real() : not_a_number);
-            table_.add_extended(known ? solution.multipliers[m].imag() : not_a_number);
-        }
-        if (with_reason_ && for_people_)
-            table_.add(solution.certificate.admissible ? "yes" : is_unphysical(record) ? "no" : "limit");
-        else if (with_reason_)
-            add_truth(solution.certificate.admissible);
-        if (!for_people_)
-            table_.add(solution.certificate.reason);
-        if (with_bracket_) {
-            add_truth(record.point.located);
-            table_.add(record.point.bracket.first);
-            table_.add(record.point.bracket.second);
-        }
-        if (with_verdict_)
-            add_verdict(record.touch.value_or(TouchFindings()));
-        if (with_detail_)
-            table_.add(cut(detail_of(record)));
-        for (const ResultColumn& monitor : monitors_)
-            table_.add_extended(monitor_of(point, monitor.name));
-        if (for_people_)
-            return;
-        table_.add(solution.residual);
-        for (const double value : point.stored)
-            table_.add(value);
-    }
-    void add_verdict(const TouchFindings& touch) {
-        table_.add(touch.verdict);
-        table_.add(touch.next_contact > 0 ? static_cast<double>(touch.next_contact) : not_a_number);
-        if (for_people_)
-            return;
-        table_.add(touch.map);
-        table_.add(touch.reason);
-        for (const std::optional<double>& number : {touch.projection, touch.growth, touch.jump_growth, touch.reach,
-                                                    touch.clearance_rate, touch.speed_factor, touch.fold_distance})
-            table_.add(number.value_or(not_a_number));
-    }
     std::string cut(std::string text) const {
         constexpr std::size_t longest = 22;
         if (!brief_ || text.size() <= longest)
@@ -283,32 +265,27 @@ private:
             return detail;
         return detail + (detail.empty() ? "" : "; ") + record.point.solution.certificate.reason;
     }
-    /// Adds the largest modulus. CSV and JSON have a number or a missing cell, people also read words.
-    void add_multiplier(const OrbitSolution& solution) {
+    /// The largest modulus. CSV and JSON have a number or a missing cell, people also read words, and six digits,
+    /// enough to compare a multiplier with 1.
+    Cell multiplier_of(const OrbitSolution& solution) const {
         const double largest = solution.multipliers.empty() ? not_a_number : std::abs(solution.multipliers.front());
         if (std::isinf(largest))
-            table_.add(for_people_ ? "infinite" : "inf");
-        else if (for_people_ && solution.multipliers.empty())
-            table_.add(multipliers_text(solution, digits_));
-        else
-            table_.add(std::isfinite(largest) ? few_digits(largest) : not_a_number);
+            return for_people_ ? "infinite" : "inf";
+        if (for_people_ && solution.multipliers.empty())
+            return multipliers_text(solution, digits_);
+        return for_people_ && std::isfinite(largest) ? rounded(largest, 6) : largest;
     }
     double monitor_of(const ListedPoint& point, const std::string& name) const {
-        const std::vector<ResultColumn>& values = list_.run_of(point).record.values;
+        const std::vector<ResultColumn>& values = run_of(point).values;
         const std::vector<double>& monitors = point.record.point.monitors;
         for (std::size_t m = 0; m < std::min(values.size(), monitors.size()); ++m)
             if (values[m].name == name)
                 return monitors[m];
         return not_a_number;
     }
-    void add_truth(bool holds) {
-        if (for_people_)
-            table_.add(holds ? "yes" : "no");
-        else
-            table_.add(holds ? 1.0 : 0.0);
-    }
-    /// For people six digits, enough to compare a multiplier with 1.
-    double few_digits(double value) const { return for_people_ ? rounded(value, 6) : value; }
+    Cell truth(bool holds) const { return for_people_ ? Cell(holds ? "yes" : "no") : Cell(holds ? 1.0 : 0.0); }
+    /// As Table::add_extended has it.
+    static Cell extended(double value) { return std::isinf(value) ? Cell(value > 0 ? "inf" : "-inf") : Cell(value); }
     static std::string numbers_text(const std::vector<double>& values, int digits) {
         std::string text;
         for (const double value : values)
@@ -317,13 +294,10 @@ private:
     }
 
     const PointList& list_;
-    bool for_people_, brief_, with_run_, with_symmetry_, with_reason_, with_bracket_, with_detail_, with_verdict_,
-        with_name_, with_type_, with_parameter_;
+    bool for_people_, brief_;
     int digits_;
-    std::size_t segments_ = 0, multipliers_ = 0; ///< greatest numbers at any point
-    std::vector<ResultColumn> monitors_;
     std::vector<Table::Column> columns_;
-    Table table_;
+    std::vector<std::function<Cell(const ListedPoint&)>> values_;
 };
 
 } // namespace

@@ -87,7 +87,7 @@ void ResultFile::set_label(const std::string& name, const std::vector<std::size_
         Statement update = state_->database.prepare(
             fmt::format("UPDATE {} SET label = ?, detail = ? WHERE number = ?", RunTables(*run).points));
         for (const std::size_t point : points)
-            update.bind(1, name_of(label)).bind(2, std::string_view(detail)).bind(3, point).run();
+            update.run(name_of(label), detail, point);
     });
 }
 

@@ -21,4 +21,25 @@ std::span<const double> QuantityEvaluator::operator()(std::span<const double> st
     return values_;
 }
 
+StateColumns::StateColumns(const Model& model, const std::vector<NamedValue>& quantities)
+    : evaluate_(model, quantities) {
+    for (const State& state : model.states)
+        columns_.push_back({state.name, state.unit});
+    for (const NamedValue& quantity : quantities)
+        columns_.push_back({quantity.name, quantity.unit});
+}
+
+std::vector<Table::Column> StateColumns::after(std::vector<Table::Column> columns, const std::string& suffix) const {
+    for (const Table::Column& column : columns_)
+        columns.push_back({column.name + suffix, column.unit});
+    return columns;
+}
+
+void StateColumns::add(Table& table, std::span<const double> state) {
+    for (const double value : state)
+        table.add(value);
+    for (const double value : evaluate_(state))
+        table.add(value);
+}
+
 } // namespace graze

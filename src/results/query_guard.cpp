@@ -47,12 +47,9 @@ int QueryGuard::is_overdue(void* guard) {
     return Clock::now() > static_cast<QueryGuard*>(guard)->deadline_ ? 1 : 0;
 }
 
-QueryGuard::ReadingOnly::ReadingOnly(sqlite3* database) : database_(database) {
-    sqlite3_set_authorizer(database_, authorize, nullptr);
-}
-
-QueryGuard::ReadingOnly::~ReadingOnly() {
-    sqlite3_set_authorizer(database_, nullptr, nullptr);
+std::shared_ptr<void> QueryGuard::reading_only(sqlite3* database) {
+    sqlite3_set_authorizer(database, authorize, nullptr);
+    return {database, [](sqlite3* one) { sqlite3_set_authorizer(one, nullptr, nullptr); }};
 }
 
 void QueryGuard::only_read() {

@@ -22,17 +22,8 @@ public:
     QueryGuard(const QueryGuard&) = delete;
     QueryGuard& operator=(const QueryGuard&) = delete;
 
-    /// During its lifetime, only statements that read can be prepared.
-    class ReadingOnly {
-    public:
-        explicit ReadingOnly(sqlite3* database);
-        ~ReadingOnly();
-        ReadingOnly(const ReadingOnly&) = delete;
-        ReadingOnly& operator=(const ReadingOnly&) = delete;
-
-    private:
-        sqlite3* database_;
-    };
+    /// While what it returns lives, only statements that read can be prepared.
+    static std::shared_ptr<void> reading_only(sqlite3* database);
     /// Allows only statements that read, from now on.
     void only_read();
     bool only_reads() const { return only_reads_; }

@@ -1,14 +1,15 @@
 #include "graze/results/result_file.hpp"
 
 #include "graze/base/file_name.hpp"
+#include "graze/base/input_error.hpp"
 #include "graze/base/printable.hpp"
+#include "graze/model/model_file.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/results/run_kind.hpp"
 #include "results/file_form.hpp"
 #include "results/point_columns.hpp"
 #include "results/result_file_state.hpp"
 #include "results/run_columns.hpp"
-#include "results/run_names.hpp"
 
 #include <fmt/format.h>
 
@@ -64,6 +65,37 @@ bool RunRecord::is_branch() const {
 bool RunRecord::is_followed() const {
     const auto known = run_kind(kind);
     return known && graze::is_followed(*known);
+}
+
+namespace {
+
+bool fits(const Model& model, const RunRecord& run) {
+    const auto is_known = [&](const ResultColumn& column) {
+        return model.find_independent_parameter(column.name) || (!run.is_branch() && model.find_state(column.name));
+    };
+    const bool states =
+        std::equal(model.states.begin(), model.states.end(), run.states.begin(), run.states.end(),
+                   [](const State& state, const ResultColumn& column) { return state.name == column.name; });
+    // The modes of a branch are stored with its segments, and checked when these are read.
+    const bool modes =
+        run.is_branch() || std::equal(model.modes.begin(), model.modes.end(), run.modes.begin(), run.modes.end(),
+                                      [](const Mode& mode, const std::string& name) { return mode.name == name; });
+    return states && modes && std::all_of(run.coordinates.begin(), run.coordinates.end(), is_known);
+}
+
+} // namespace
+
+Place stored_place(const std::string& file, const std::string& what) {
+    return {file.empty() ? what : fmt::format("{}: {}", file, what), 0, 0};
+}
+
+Model stored_model(const RunRecord& run) {
+    const Place place = stored_place(run.file, fmt::format("model of run '{}'", run.name));
+    Model model = parse_model(run.model, place.file);
+    if (!fits(model, run))
+        throw InputError(place, fmt::format("the model stored for run '{}' is not the one of its columns", run.name),
+                         "the result file has been changed: ask for another copy, or run the study again");
+    return model;
 }
 
 std::string result_path(const std::string& file_or_folder) {
@@ -200,9 +232,9 @@ void ResultFile::remove_run(const std::string& name) {
         for (const DetailTable& table : detail_tables())
             shared.push_back(table.name);
         for (const std::string& table : shared)
-            database.prepare(fmt::format("DELETE FROM {} WHERE run = ?", table)).bind(1, std::string_view(name)).run();
-        database.prepare("DELETE FROM runs WHERE name = ?").bind(1, std::string_view(name)).run();
-        database.prepare("DELETE FROM meta WHERE key = ?").bind(1, std::string_view(key_of_failure(name))).run();
+            database.prepare(fmt::format("DELETE FROM {} WHERE run = ?", table)).run(name);
+        database.prepare("DELETE FROM runs WHERE name = ?").run(name);
+        database.prepare("DELETE FROM meta WHERE key = ?").run(key_of_failure(name));
         database.execute(views(runs()));
     });
 }
@@ -241,9 +273,7 @@ void ResultFile::order_runs(const std::vector<std::string>& names) {
         // Renumbers through negative numbers, so that no number occurs twice.
         for (std::size_t i = 0; i < ordered.size(); ++i)
             database.prepare("UPDATE runs SET number = ? WHERE name = ?")
-                .bind(1, -static_cast<std::int64_t>(i + 1))
-                .bind(2, std::string_view(ordered[i]))
-                .run();
+                .run(-static_cast<std::int64_t>(i + 1), ordered[i]);
         database.execute("UPDATE runs SET number = -number");
         database.execute(views(runs()));
     });
@@ -254,10 +284,8 @@ void ResultFile::name_points(const std::string& run, const std::vector<PointName
 }
 
 void ResultFile::set_note(const std::string& key, const std::string& text) {
-    state_->at_once([&] {
-        Statement insert = state_->database.prepare("INSERT OR REPLACE INTO meta(key, value) VALUES(?,?)");
-        insert.bind(1, std::string_view(key)).bind(2, std::string_view(text)).run();
-    });
+    state_->at_once(
+        [&] { state_->database.prepare("INSERT OR REPLACE INTO meta(key, value) VALUES(?,?)").run(key, text); });
 }
 
 std::optional<std::string> ResultFile::note(const std::string& key) const {

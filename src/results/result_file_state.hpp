@@ -5,7 +5,6 @@
 #include "results/database.hpp"
 #include "results/run_columns.hpp"
 #include "results/schema.hpp"
-#include "results/write_lock.hpp"
 
 #include <fmt/format.h>
 
@@ -113,18 +112,12 @@ struct ResultFile::State {
     }
     void mark(const std::string& run, RunStatus status, const std::string& failure) {
         at_once([&] {
-            database.prepare("UPDATE runs SET status = ? WHERE name = ?")
-                .bind(1, name_of(status))
-                .bind(2, std::string_view(run))
-                .run();
+            database.prepare("UPDATE runs SET status = ? WHERE name = ?").run(name_of(status), run);
             const std::string key = key_of_failure(run);
             if (status != RunStatus::failed)
-                database.prepare("DELETE FROM meta WHERE key = ?").bind(1, std::string_view(key)).run();
+                database.prepare("DELETE FROM meta WHERE key = ?").run(key);
             else
-                database.prepare("INSERT OR REPLACE INTO meta(key, value) VALUES(?,?)")
-                    .bind(1, std::string_view(key))
-                    .bind(2, std::string_view(failure))
-                    .run();
+                database.prepare("INSERT OR REPLACE INTO meta(key, value) VALUES(?,?)").run(key, failure);
         });
     }
     void sqlite_rollback() noexcept {

@@ -41,6 +41,12 @@ std::string views(const std::vector<RunRecord>& runs);
 std::string insert_into(const std::string& table, std::size_t columns);
 /// The name, with a number appended if it is already taken. Upper and lower case count as equal, as in SQL.
 std::string distinct_name(const std::string& name, std::set<std::string>& taken);
+/// Checks that a result file can store a run of this name.
+/// @param branch whether it is a run of kind orbit or continue
+/// @param others names of the other runs of the file
+/// @throws InputError if it differs from another name only in case, which SQL ignores, or is the name of a view
+void require_free_name(const std::string& name, bool branch, const std::vector<std::string>& others,
+                       const Place& place);
 /// Names of columns, separated by commas.
 std::string listed(const std::vector<ColumnKind>& columns, std::string_view before_each = "");
 

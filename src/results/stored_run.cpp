@@ -113,21 +113,6 @@ std::optional<std::pair<double, double>> StoredRun::extent(const std::string& qu
     return std::pair(rows.number(0), rows.number(1));
 }
 
-std::vector<double> StoredRun::value_spreads() const {
-    std::vector<double> spreads;
-    if (record.values.empty() || record.is_branch())
-        return spreads;
-    const RunQuery query(record);
-    std::vector<std::string> columns;
-    for (const ResultColumn& value : record.values)
-        columns.push_back(fmt::format("max({0}) - min({0})", query.value(value.name)));
-    auto rows = file.query(fmt::format("SELECT {} FROM {} AS s", fmt::join(columns, ", "), RunTables(record).samples));
-    if (rows.next())
-        for (std::size_t v = 0; v < columns.size(); ++v)
-            spreads.push_back(rows.number(v));
-    return spreads;
-}
-
 std::vector<std::pair<std::string, std::size_t>> StoredRun::label_counts() const {
     std::vector<std::pair<std::string, std::size_t>> counts;
     auto rows = file.query(

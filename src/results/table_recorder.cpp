@@ -1,34 +1,22 @@
 #include "graze/results/table_recorder.hpp"
 
+#include "graze/base/require.hpp"
+#include "graze/results/name_advice.hpp"
 #include "graze/trajectory/recorder.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace graze {
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, TableKind>, 7> kinds{{
-    {"samples", TableKind::samples},
-    {"contacts", TableKind::contacts},
-    {"sections", TableKind::sections},
-    {"extrema", TableKind::extrema},
-    {"minima", TableKind::minima},
-    {"derivatives", TableKind::derivatives},
-    {"summary", TableKind::summary},
-}};
-
 class SampleTable : public TableRecorder {
 public:
     SampleTable(const Simulation& simulation, const TableRequest& request)
         : model_(&simulation.model()), request_(request), columns_(*model_, request.quantities) {
-        std::vector<Table::Column> columns{{"time", model_->time_unit}, {"mode", ""}};
-        columns_.declare(columns);
-        table_ = Table(std::move(columns));
+        table_ = Table(columns_.after({{"time", model_->time_unit}, {"mode", ""}}));
         periods_ = simulation.system().periods()(model_->parameter_values());
     }
 
@@ -69,8 +57,7 @@ public:
 private:
     void add(double time, std::size_t mode, std::span<const double> state) {
         last_ = time;
-        table_.add(time);
-        table_.add(model_->modes[mode].name);
+        table_.add(time, model_->modes[mode].name);
         columns_.add(table_, state);
     }
 
@@ -87,26 +74,28 @@ class ContactTable : public TableRecorder {
 public:
     ContactTable(const Simulation& simulation, const TableRequest& request)
         : model_(&simulation.model()), shown_(request.events), columns_(*model_, request.quantities) {
-        std::vector<Table::Column> columns{{"time", model_->time_unit}, {"kind", ""},        {"event", ""},
-                                           {"transition", ""},          {"mode_before", ""}, {"mode_after", ""},
-                                           {"rate_before", ""},         {"rate_after", ""}};
-        columns_.declare(columns);
-        columns_.declare(columns, "_after");
-        table_ = Table(std::move(columns));
+        table_ = Table(columns_.after(columns_.after({{"time", model_->time_unit},
+                                                      {"kind", ""},
+                                                      {"event", ""},
+                                                      {"transition", ""},
+                                                      {"mode_before", ""},
+                                                      {"mode_after", ""},
+                                                      {"rate_before", ""},
+                                                      {"rate_after", ""}}),
+                                      "_after"));
     }
 
     void contact(const Contact& contact) override {
         if (!shown_[contact.event])
             return;
         const bool touch = contact.kind == ContactKind::touch;
-        table_.add(contact.time);
-        table_.add(touch ? "touch" : contact.kind == ContactKind::sticking ? "sticking" : "crossing");
-        table_.add(model_->events[contact.event].name);
-        table_.add(touch ? "" : model_->transitions[contact.transition].label);
-        table_.add(model_->modes[contact.mode_before].name);
-        table_.add(model_->modes[contact.mode_after].name);
-        table_.add(contact.rate_before);
-        table_.add(contact.rate_after);
+        table_.add(contact.time,
+                   touch                                   ? "touch"
+                   : contact.kind == ContactKind::sticking ? "sticking"
+                                                           : "crossing",
+                   model_->events[contact.event].name, touch ? "" : model_->transitions[contact.transition].label,
+                   model_->modes[contact.mode_before].name, model_->modes[contact.mode_after].name, contact.rate_before,
+                   contact.rate_after);
         columns_.add(table_, contact.before);
         columns_.add(table_, contact.after);
     }
@@ -121,19 +110,15 @@ class SectionTable : public TableRecorder {
 public:
     SectionTable(const Simulation& simulation, const TableRequest& request)
         : simulation_(simulation), end_(request.first_extremum), columns_(simulation.model(), request.quantities) {
-        std::vector<Table::Column> columns{
-            {"section", ""}, {"time", simulation.model().time_unit}, {"direction", ""}, {"mode", ""}};
-        columns_.declare(columns);
-        table_ = Table(std::move(columns));
+        table_ = Table(
+            columns_.after({{"section", ""}, {"time", simulation.model().time_unit}, {"direction", ""}, {"mode", ""}}));
     }
 
     void passage(const Passage& passage) override {
         if (passage.probe >= end_)
             return;
-        table_.add(simulation_.probes()[passage.probe].name);
-        table_.add(passage.time);
-        table_.add(passage.direction);
-        table_.add(simulation_.model().modes[passage.mode].name);
+        table_.add(simulation_.probes()[passage.probe].name, passage.time, passage.direction,
+                   simulation_.model().modes[passage.mode].name);
         columns_.add(table_, passage.state);
     }
 
@@ -148,22 +133,20 @@ public:
     ExtremumTable(const Simulation& simulation, const TableRequest& request)
         : simulation_(simulation), first_(request.first_extremum), values_(simulation.model(), request.extrema),
           columns_(simulation.model(), request.quantities) {
-        std::vector<Table::Column> columns{{"expression", ""}, {"time", simulation.model().time_unit},
-                                           {"kind", ""},       {"value", ""},
-                                           {"mode", ""},       {"at_contact", ""}};
-        columns_.declare(columns);
-        table_ = Table(std::move(columns));
+        table_ = Table(columns_.after({{"expression", ""},
+                                       {"time", simulation.model().time_unit},
+                                       {"kind", ""},
+                                       {"value", ""},
+                                       {"mode", ""},
+                                       {"at_contact", ""}}));
     }
 
     void passage(const Passage& passage) override {
         if (passage.probe < first_)
             return;
-        table_.add(simulation_.probes()[passage.probe].name);
-        table_.add(passage.time);
-        table_.add(passage.direction > 0 ? "minimum" : "maximum");
-        table_.add(values_(passage.state)[passage.probe - first_]);
-        table_.add(simulation_.model().modes[passage.mode].name);
-        table_.add(passage.at_contact ? 1 : 0);
+        table_.add(simulation_.probes()[passage.probe].name, passage.time,
+                   passage.direction > 0 ? "minimum" : "maximum", values_(passage.state)[passage.probe - first_],
+                   simulation_.model().modes[passage.mode].name, passage.at_contact ? 1 : 0);
         columns_.add(table_, passage.state);
     }
 
@@ -180,14 +163,8 @@ public:
         : minima_([model = &simulation.model(), shown = request.events, this](const ArcMinimum& minimum) {
               if (!shown[minimum.event])
                   return;
-              table_.add(static_cast<double>(minimum.arc));
-              table_.add(model->modes[minimum.mode].name);
-              table_.add(minimum.start);
-              table_.add(minimum.end);
-              table_.add(model->events[minimum.event].name);
-              table_.add(minimum.time);
-              table_.add(minimum.value);
-              table_.add(minimum.lower_bound);
+              table_.add(static_cast<double>(minimum.arc), model->modes[minimum.mode].name, minimum.start, minimum.end,
+                         model->events[minimum.event].name, minimum.time, minimum.value, minimum.lower_bound);
           }) {
         const std::string& unit = simulation.model().time_unit;
         table_ = Table({{"arc", ""},
@@ -222,8 +199,7 @@ public:
     void finish(const Trajectory& trajectory) override {
         const auto tangents = trajectory.tangents();
         for (std::size_t i = 0; i < model_->states.size(); ++i) {
-            table_.add(model_->states[i].name);
-            table_.add(trajectory.state()[i]);
+            table_.add(model_->states[i].name, trajectory.state()[i]);
             for (std::size_t j = 0; j < directions_; ++j)
                 table_.add(trajectory.tangents_valid() ? tangents[i * directions_ + j]
                                                        : std::numeric_limits<double>::quiet_NaN());
@@ -239,12 +215,13 @@ class SummaryTable : public TableRecorder {
 public:
     SummaryTable(const Simulation& simulation, const TableRequest& request)
         : model_(&simulation.model()), counted_(request.events), columns_(*model_, request.quantities) {
-        std::vector<Table::Column> columns{{"ending", ""},  {"ending_time", model_->time_unit},
-                                           {"steps", ""},   {"contacts", ""},
-                                           {"touches", ""}, {"sticking", ""},
-                                           {"mode", ""}};
-        columns_.declare(columns);
-        table_ = Table(std::move(columns));
+        table_ = Table(columns_.after({{"ending", ""},
+                                       {"ending_time", model_->time_unit},
+                                       {"steps", ""},
+                                       {"contacts", ""},
+                                       {"touches", ""},
+                                       {"sticking", ""},
+                                       {"mode", ""}}));
     }
 
     void contact(const Contact& contact) override {
@@ -255,13 +232,9 @@ public:
     }
 
     void finish(const Trajectory& trajectory) override {
-        table_.add(name_of(trajectory.outcome().ending));
-        table_.add(trajectory.outcome().time);
-        table_.add(static_cast<double>(trajectory.steps()));
-        table_.add(crossings_);
-        table_.add(touches_);
-        table_.add(stickings_);
-        table_.add(model_->modes[trajectory.mode()].name);
+        table_.add(name_of(trajectory.outcome().ending), trajectory.outcome().time,
+                   static_cast<double>(trajectory.steps()), crossings_, touches_, stickings_,
+                   model_->modes[trajectory.mode()].name);
         columns_.add(table_, trajectory.state());
     }
 
@@ -272,46 +245,41 @@ private:
     double crossings_ = 0, touches_ = 0, stickings_ = 0;
 };
 
+template <class Recorder>
+std::unique_ptr<TableRecorder> make(const Simulation& simulation, const TableRequest& request) {
+    return std::make_unique<Recorder>(simulation, request);
+}
+
+struct KindOfTable {
+    std::string name;
+    std::unique_ptr<TableRecorder> (*make)(const Simulation& simulation, const TableRequest& request);
+};
+
+/// In the order of TableKind.
+const std::vector<KindOfTable>& kinds_of_tables() {
+    static const std::vector<KindOfTable> kinds{
+        {"samples", &make<SampleTable>},   {"contacts", &make<ContactTable>}, {"sections", &make<SectionTable>},
+        {"extrema", &make<ExtremumTable>}, {"minima", &make<MinimumTable>},   {"derivatives", &make<DerivativeTable>},
+        {"summary", &make<SummaryTable>}};
+    return kinds;
+}
+
 } // namespace
 
 std::optional<TableKind> table_kind(std::string_view name) {
-    const auto* found = std::find_if(kinds.begin(), kinds.end(), [&](const auto& kind) { return kind.first == name; });
-    return found == kinds.end() ? std::nullopt : std::optional(found->second);
+    const auto found = std::ranges::find(kinds_of_tables(), name, &KindOfTable::name);
+    return found == kinds_of_tables().end() ? std::nullopt
+                                            : std::optional(static_cast<TableKind>(found - kinds_of_tables().begin()));
 }
 
 std::vector<std::string> table_kind_names() {
-    std::vector<std::string> names;
-    for (const auto& kind : kinds)
-        names.emplace_back(kind.first);
-    return names;
+    return names_of(kinds_of_tables());
 }
-
-namespace {
-
-std::unique_ptr<TableRecorder> make_recorder(const Simulation& simulation, const TableRequest& request) {
-    switch (request.kind) {
-    case TableKind::samples:
-        return std::make_unique<SampleTable>(simulation, request);
-    case TableKind::contacts:
-        return std::make_unique<ContactTable>(simulation, request);
-    case TableKind::sections:
-        return std::make_unique<SectionTable>(simulation, request);
-    case TableKind::extrema:
-        return std::make_unique<ExtremumTable>(simulation, request);
-    case TableKind::minima:
-        return std::make_unique<MinimumTable>(simulation, request);
-    case TableKind::derivatives:
-        return std::make_unique<DerivativeTable>(simulation, request);
-    case TableKind::summary:
-        break;
-    }
-    return std::make_unique<SummaryTable>(simulation, request);
-}
-
-} // namespace
 
 std::unique_ptr<TableRecorder> make_table_recorder(const Simulation& simulation, const TableRequest& request) {
-    auto recorder = make_recorder(simulation, request);
+    const auto kind = static_cast<std::size_t>(request.kind);
+    require_index(kind, kinds_of_tables().size(), "kind of tables");
+    auto recorder = kinds_of_tables()[kind].make(simulation, request);
     recorder->hold_at_most(request.most_cells);
     return recorder;
 }

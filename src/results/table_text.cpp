@@ -56,12 +56,13 @@ std::string csv_text(const Table& table) {
 
 void write_json(std::ostream& out, const Table& table, int digits, const JsonObject& heading) {
     const std::size_t columns = table.columns().size();
-    out << '{' << heading.members() << (heading.members().empty() ? "" : ",") << "\n\"columns\":[";
-    for (std::size_t column = 0; column < columns; ++column)
-        out << (column > 0 ? "," : "") << json_text(table.columns()[column].name);
-    out << "],\n\"units\":[";
-    for (std::size_t column = 0; column < columns; ++column)
-        out << (column > 0 ? "," : "") << json_text(table.columns()[column].unit);
+    std::vector<std::string> names, units;
+    for (const Table::Column& column : table.columns()) {
+        names.push_back(json_text(column.name));
+        units.push_back(json_text(column.unit));
+    }
+    out << '{' << heading.members() << (heading.members().empty() ? "" : ",")
+        << fmt::format("\n\"columns\":[{}],\n\"units\":[{}", fmt::join(names, ","), fmt::join(units, ","));
     out << "],\n\"rows\":[";
     for (std::size_t row = 0; row < table.rows(); ++row) {
         out << (row > 0 ? ",\n[" : "\n[");

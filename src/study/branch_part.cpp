@@ -1,7 +1,6 @@
 #include "study/branch_part.hpp"
 
 #include "study/point_limits.hpp"
-#include "study/touch_findings.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -36,6 +36,10 @@ auto at_place(const Place& place, const StudyRun& run, const Work& work) {
     return with_place(place, work, "run '" + run.name + "': ");
 }
 
+/// What becomes of an orbit beyond its touch, by the map of its cycle and the first of the run's parameters that moves
+/// the orbit from the touch. It is told of grazings, and of all points of curves of touches. @return none otherwise
+std::optional<TouchFindings> findings_at(const StudyRun& run, const SpecialPoint& point);
+
 /// Writes points to the result file one by one. It holds the last point back until it is known whether the part ends
 /// there.
 class PointWriter {

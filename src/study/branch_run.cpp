@@ -7,6 +7,7 @@
 #include "graze/orbit/orbit_file.hpp"
 #include "study/branch_part.hpp"
 #include "study/ladder_run.hpp"
+#include "study/run_record.hpp"
 #include "study/start_point.hpp"
 
 #include <fmt/format.h>
@@ -54,10 +55,6 @@ std::optional<Orbit> settled(const StudyRun& run, const System& system, const Ru
         return find_orbit(system, branch.attractor, branch.settings.orbit, branch.simulation, interrupted);
     });
     return solution ? std::optional(solution->orbit) : std::nullopt;
-}
-
-OrbitSolution solved(const StudyRun& run, const System& system, const Orbit& candidate) {
-    return at_place(run.place, run, [&] { return solve_orbit(system, candidate, run.branch().settings.orbit); });
 }
 
 /// The system with the parameters, the initial state and the mode of a point of another run.
@@ -277,7 +274,8 @@ bool compute_orbit(const Study& study, const StudyRun& run, const System& system
     const BranchPart& part = parts.front();
     SpecialPoint point;
     point.type = PointType::end;
-    point.solution = solved(run, system, part.orbit);
+    point.solution =
+        at_place(run.place, run, [&] { return solve_orbit(system, part.orbit, run.branch().settings.orbit); });
     point.detail = point.solution.detail;
     const Orbit& orbit = point.solution.orbit;
     if (point.solution.outcome == OrbitOutcome::converged && !run.branch().settings.monitors.empty())

@@ -11,7 +11,4 @@ namespace graze {
 bool run_branch(const Study& study, const StudyRun& run, SharedFile& file, const RunnerOptions& options,
                 RunReport& report);
 
-/// Ways in which a run of kind continue, or a sweep, goes.
-std::vector<std::string> direction_names(const StudyRun& run);
-
 } // namespace graze

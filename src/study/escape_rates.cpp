@@ -38,8 +38,7 @@ std::vector<EscapeRate> escape_rates(const StoredRun& run) {
         return {};
     std::vector<std::string> parameters;
     for (const ResultColumn& coordinate : record.coordinates)
-        if (std::none_of(record.states.begin(), record.states.end(),
-                         [&](const ResultColumn& state) { return state.name == coordinate.name; }))
+        if (std::ranges::find(record.states, coordinate.name, &ResultColumn::name) == record.states.end())
             parameters.push_back(coordinate.name);
     std::map<std::vector<double>, Group> groups;
     auto rows = run.rows({.columns = {"number", "label", "ending", "cycles"}, .quantities = parameters});

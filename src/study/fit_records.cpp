@@ -34,8 +34,7 @@ UnknownParameter unknown_of(const StudyRun& run, const IdentifyRequest::Unknown&
 
 /// The channel of a reading; none where the record lacks it and may do so.
 std::optional<std::size_t> column_of(const Reading& reading, const RecordHeader& header) {
-    const bool has = std::any_of(header.channels.begin(), header.channels.end(),
-                                 [&](const Channel& channel) { return channel.name == reading.channel; });
+    const bool has = std::ranges::find(header.channels, reading.channel, &Channel::name) != header.channels.end();
     return has || !reading.may_lack ? std::optional(header.channel(reading.channel, "readings")) : std::nullopt;
 }
 

@@ -149,13 +149,9 @@ std::vector<KeptRecord> kept_records(const StudyRun& run, const ResultFile& file
         if (!from)
             throw InputError(run.place, fmt::format("there are no results of a run '{}'", name), "run it first");
         const StudyRun asked = stored_run(*from);
-        std::size_t sampling = 0;
-        while (sampling < asked.record().samplings.size() &&
-               asked.record().samplings[sampling].kind != RecordSampling::Kind::record)
-            ++sampling;
-        const std::vector<std::string> names = from->samplings;
-        const std::string kept =
-            sampling < asked.record().samplings.size() ? asked.record().samplings[sampling].name : std::string();
+        const std::vector<RecordSampling>& samplings = asked.record().samplings;
+        const auto all_rows = std::ranges::find(samplings, RecordSampling::Kind::record, &RecordSampling::kind);
+        const std::string kept = all_rows == samplings.end() ? "" : all_rows->name;
         for (std::size_t number = 0; number < from->points; ++number) {
             const auto point = file.point(name, number);
             if (!point)
@@ -169,7 +165,7 @@ std::vector<KeptRecord> kept_records(const StudyRun& run, const ResultFile& file
             record.samples.clear(from->values.size());
             const SampleSet& samples = point->result.samples;
             for (std::size_t s = 0; s < samples.size(); ++s) {
-                if (names[samples.samplings[s]] != kept)
+                if (from->samplings[samples.samplings[s]] != kept)
                     continue;
                 record.samples.times.push_back(samples.times[s]);
                 for (std::size_t v = 0; v < samples.width; ++v)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <utility>
 
 namespace graze {
 
@@ -12,35 +13,23 @@ namespace {
 
 constexpr std::size_t rows_of_side = 5; ///< few enough to follow a curve, enough not to amplify noise much
 
-/// Rows between two impacts that are nearest to one of them.
-struct NearRows {
-    std::deque<double> times;
-    std::deque<std::vector<double>> rows;
-
-    void add(double time, const std::vector<double>& row) {
-        times.push_back(time);
-        rows.push_back(row);
-    }
-    void drop_first() {
-        times.pop_front();
-        rows.pop_front();
-    }
-};
+/// Times and rows between two impacts that are nearest to one of them.
+using NearRows = std::deque<std::pair<double, std::vector<double>>>;
 
 std::vector<double> continued(const NearRows& near, std::size_t first, std::size_t last, double time) {
     if (first >= last)
         return {};
     std::vector<double> places, samples(last - first);
     for (std::size_t i = first; i < last; ++i)
-        places.push_back(near.times[i] - time);
+        places.push_back(near[i].first - time);
     const double scale = std::max(std::abs(places.front()), std::abs(places.back()));
     for (double& place : places)
         place /= scale;
     const LocalPolynomial parabola(places, std::min<std::size_t>(2, places.size() - 1));
-    std::vector<double> values(near.rows[first].size(), 0);
+    std::vector<double> values(near[first].second.size(), 0);
     for (std::size_t c = 0; c < values.size(); ++c) {
         for (std::size_t i = first; i < last; ++i)
-            samples[i - first] = near.rows[i][c];
+            samples[i - first] = near[i].second[c];
         for (std::size_t k = 0; k <= parabola.degree(); ++k)
             values[c] += parabola.coefficient(k, samples.data()) * parabola.at_zero(k);
     }
@@ -53,12 +42,12 @@ struct Stretch {
 };
 
 std::vector<double> at_end(const Stretch& stretch, std::size_t transition, double time) {
-    const std::size_t count = stretch.tail.rows.size(), last = count > transition ? count - transition : 0;
+    const std::size_t count = stretch.tail.size(), last = count > transition ? count - transition : 0;
     return continued(stretch.tail, last > rows_of_side ? last - rows_of_side : 0, last, time);
 }
 
 std::vector<double> at_begin(const Stretch& stretch, std::size_t transition, double time) {
-    const std::size_t count = stretch.head.rows.size();
+    const std::size_t count = stretch.head.size();
     return continued(stretch.head, transition, std::min(count, transition + rows_of_side), time);
 }
 
@@ -90,11 +79,11 @@ std::vector<ImpactSides> impact_sides(SampleSource& record, const std::vector<Re
             for (const std::vector<double>& values : samples.values)
                 row.push_back(values[i]);
             Stretch& stretch = stretches[next];
-            if (next > 0 && stretch.head.rows.size() < transition + rows_of_side)
-                stretch.head.add(time, row);
-            stretch.tail.add(time, row);
-            if (stretch.tail.rows.size() > transition + rows_of_side)
-                stretch.tail.drop_first();
+            if (next > 0 && stretch.head.size() < transition + rows_of_side)
+                stretch.head.emplace_back(time, row);
+            stretch.tail.emplace_back(time, row);
+            if (stretch.tail.size() > transition + rows_of_side)
+                stretch.tail.pop_front();
         }
     std::vector<ImpactSides> result;
     for (std::size_t k = 0; k < impacts.size(); ++k) {

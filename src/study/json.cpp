@@ -73,30 +73,30 @@ private:
             value.kind = Json::Kind::number, value.text = read_number();
         return value;
     }
+    /// Reads what stands between two brackets. @param read_item called for each item, or member
+    template <class ReadItem>
+    void read_between(char open, char close, const ReadItem& read_item) {
+        require(open);
+        if (take(close))
+            return;
+        do
+            read_item();
+        while (take(','));
+        require(close);
+    }
     void read_members(Json& value, int depth) {
         value.kind = Json::Kind::object;
-        require('{');
-        if (take('}'))
-            return;
-        do {
+        read_between('{', '}', [&] {
             if (peek() != '"')
                 fail("a name is missing");
-            std::string name = read_text();
+            value.names.push_back(read_text());
             require(':');
-            value.names.push_back(std::move(name));
             value.items.push_back(read_value(depth + 1));
-        } while (take(','));
-        require('}');
+        });
     }
     void read_items(Json& value, int depth) {
         value.kind = Json::Kind::list;
-        require('[');
-        if (take(']'))
-            return;
-        do
-            value.items.push_back(read_value(depth + 1));
-        while (take(','));
-        require(']');
+        read_between('[', ']', [&] { value.items.push_back(read_value(depth + 1)); });
     }
     std::string read_number() {
         const std::size_t begin = at_;

@@ -58,7 +58,6 @@ public:
         if (StudyKey* one = add(key, "text"))
             one->standard = value;
     }
-    void lines(const Key& key, std::vector<std::string>&) { add(key, "texts"); }
     void later_number(const Key& key, std::string&) { add(key, "number"); }
     void form(const Key& key, const char* written, FormReader) { add(key, written); }
 

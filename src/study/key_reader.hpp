@@ -27,11 +27,9 @@ public:
         read(key, [&](const TomlEntry& e) { value = static_cast<Count>(reader_.count(e, range.least, range.most)); });
     }
     void number(const Key& key, double& value, const NumberRange& range) {
-        read(key, [&](const TomlEntry& e) { value = reader_.number(run_.model, e, range); });
+        read(key, reader_.into(value, run_.model, range));
     }
-    void truth(const Key& key, bool& value) {
-        read(key, [&](const TomlEntry& e) { value = reader_.toml().boolean(e); });
-    }
+    void truth(const Key& key, bool& value) { read(key, reader_.into(value)); }
     /// A key whose negation is stored.
     void denied(const Key& key, const char*, bool& value) {
         read(key, [&](const TomlEntry& e) { value = !reader_.toml().boolean(e); });
@@ -40,12 +38,7 @@ public:
     void choice(const Key& key, Choice& value, const std::vector<std::string>& words) {
         read(key, [&](const TomlEntry& e) { value = static_cast<Choice>(reader_.choice(e, words)); });
     }
-    void line(const Key& key, std::string& value) {
-        read(key, [&](const TomlEntry& e) { value = reader_.toml().line(e); });
-    }
-    void lines(const Key& key, std::vector<std::string>& value) {
-        read(key, [&](const TomlEntry& e) { value = reader_.strings(e); });
-    }
+    void line(const Key& key, std::string& value) { read(key, reader_.into(value)); }
     /// A number, or an expression in parameters whose values other runs will find.
     void later_number(const Key& key, std::string& value) {
         read(key, [&](const TomlEntry& e) { value = reader_.number_text(run_.model, e); });

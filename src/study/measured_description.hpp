@@ -16,13 +16,9 @@ template <class Fields, class One>
 void describe_record_sampling(Fields& fields, One& sampling) {
     fields.field("name", sampling.name);
     fields.number("kind", sampling.kind, static_cast<std::size_t>(RecordSampling::Kind::impacts) + 1);
-    fields.field("phase", sampling.phase);
-    fields.field("negated", sampling.negated);
-    fields.field("channel", sampling.channel);
-    fields.field("displacement", sampling.displacement);
-    fields.field("window", sampling.impacts.window);
-    fields.field("transition", sampling.impacts.transition);
-    fields.field("least_jump", sampling.impacts.least_jump);
+    describe_fields(fields, "phase", sampling.phase, "negated", sampling.negated, "channel", sampling.channel,
+                    "displacement", sampling.displacement, "window", sampling.impacts.window, "transition",
+                    sampling.impacts.transition, "least_jump", sampling.impacts.least_jump);
 }
 
 template <class Fields, class Processing>
@@ -43,26 +39,21 @@ void describe_processing(Fields& fields, Processing& processing) {
     fields.form({"scale", "factors, offsets and units of channels"}, "{ q = 2.011, I = { factor, offset, unit } }",
                 &read_scales);
     fields.list("scales", processing.scales, [](auto& one, auto& scale) {
-        one.field("channel", scale.channel);
-        one.field("factor", scale.factor);
-        one.field("offset", scale.offset);
+        describe_fields(one, "channel", scale.channel, "factor", scale.factor, "offset", scale.offset);
         one.optional("unit", scale.unit);
     });
     fields.form({"part", "part of the record, between two times"}, "[t0, t1]", &read_part);
-    fields.field("begin", processing.begin);
-    fields.field("end", processing.end);
+    describe_fields(fields, "begin", processing.begin, "end", processing.end);
     fields.form(
         {"filter",
          "low-pass filter: the frequency up to which it passes everything, and that from which it passes nothing"},
         "{ pass, stop }", &read_filter);
-    fields.field("pass", processing.pass);
-    fields.field("stop", processing.stop);
+    describe_fields(fields, "pass", processing.pass, "stop", processing.stop);
     fields.count({"every", "decimation: every N-th sample is kept"}, processing.every,
                  {1, RecordProcessing::most_every});
     fields.form({"derivative", "adds a channel: the rate of change of this one"}, "\"q\" or { channel, half_width }",
                 &read_derivative);
-    fields.field("derivative", processing.derivative);
-    fields.field("half_width", processing.half_width);
+    describe_fields(fields, "derivative", processing.derivative, "half_width", processing.half_width);
 }
 
 /// A virtual bench: the keys of the table `bench`, and what is stored of it.
@@ -75,9 +66,7 @@ void describe_bench(Fields& fields, Bench& bench) {
     } else if constexpr (Fields::stored) {
         fields.field("model", write_model(bench.model));
     }
-    fields.field("parameter", bench.parameter);
-    fields.field("levels", bench.levels);
-    fields.field("directions", bench.directions);
+    describe_fields(fields, "parameter", bench.parameter, "levels", bench.levels, "directions", bench.directions);
     fields.count(key_in_table("repeats"), bench.repeats, {1, 10'000});
     fields.field("carry", bench.carry);
     fields.number(key_in_table("settle"), bench.settle, any_number);
@@ -86,8 +75,7 @@ void describe_bench(Fields& fields, Bench& bench) {
     fields.number(key_in_table("time_unit"), bench.time_unit, positive_number);
     fields.form(key_in_table("channels"), "", &read_bench_channels);
     fields.list("channels", bench.channels, [&](auto& one, auto& channel) {
-        one.field("name", channel.value.name);
-        one.field("unit", channel.value.unit);
+        describe_fields(one, "name", channel.value.name, "unit", channel.value.unit);
         if constexpr (Fields::reading) {
             std::string text;
             one.field("value", text);
@@ -98,10 +86,8 @@ void describe_bench(Fields& fields, Bench& bench) {
         } else {
             one.field("value", to_string(channel.value.value));
         }
-        one.field("noise", channel.noise);
-        one.field("offset", channel.offset);
-        one.field("drift", channel.drift);
-        one.field("range", channel.range);
+        describe_fields(one, "noise", channel.noise, "offset", channel.offset, "drift", channel.drift, "range",
+                        channel.range);
     });
     fields.count(key_in_table("bits"), bench.bits, {1, 32});
     fields.number(key_in_table("anti_alias"), bench.anti_alias, positive_number);
@@ -133,10 +119,8 @@ void describe_record(Fields& fields, Request& request) {
     fields.form({"bench", "a virtual bench in place of files: what it measures, how often and how long"},
                 "{ channels, rate, time, settle, repeats, bits, anti_alias, time_unit }", read_apart);
     fields.list("inputs", request.inputs, [](auto& one, auto& input) {
-        one.field("name", input.name);
-        one.field("bytes", input.bytes);
-        one.field("hash", input.hash);
-        one.field("direction", input.direction);
+        describe_fields(one, "name", input.name, "bytes", input.bytes, "hash", input.hash, "direction",
+                        input.direction);
     });
     if constexpr (Fields::stored)
         if (fields.has("bench", request.bench.has_value())) {
@@ -149,15 +133,11 @@ void describe_record(Fields& fields, Request& request) {
     fields.form({"channels",
                  "the channels that values may use, by their own names or under others that expressions accept (all)"},
                 "[\"V\"] or { v = \"dq/dt\" }", read_apart);
-    fields.list("channels", request.channels, [](auto& one, auto& kept) {
-        one.field("name", kept.name);
-        one.field("channel", kept.channel);
-    });
+    fields.list("channels", request.channels,
+                [](auto& one, auto& kept) { describe_fields(one, "name", kept.name, "channel", kept.channel); });
     fields.form({"reference", "the channel whose rising crossings begin periods"},
                 "\"V\" or { channel, level, hysteresis }", read_apart);
-    fields.field("reference", request.reference);
-    fields.field("level", request.level);
-    fields.field("hysteresis", request.hysteresis);
+    describe_fields(fields, "reference", request.reference, "level", request.level, "hysteresis", request.hysteresis);
     fields.line({"coordinate", "name of the reference's amplitude, averaged over the record, which is the horizontal "
                                "axis of diagrams (amplitude)"},
                 request.coordinate);
@@ -172,54 +152,40 @@ void describe_record(Fields& fields, Request& request) {
 }
 
 /// Makes keys that only some estimates have: in runs of other estimates they are refused.
-template <class Request>
-class KeyOfEstimate {
-public:
-    explicit KeyOfEstimate(const Request& request) : what_(request.what) {}
-    Key operator()(const char* name, const char* meaning, std::initializer_list<IdentifyRequest::What> of) const {
-        const bool used = std::find(of.begin(), of.end(), what_) != of.end();
+inline auto keys_of_estimate(IdentifyRequest::What what) {
+    return [what](const char* name, const char* meaning, std::initializer_list<IdentifyRequest::What> of) -> Key {
+        const bool used = std::find(of.begin(), of.end(), what) != of.end();
         return {name, meaning, true, nullptr,
-                used ? "" : "has no effect on a " + kinds_of_estimates()[static_cast<std::size_t>(what_)]};
-    }
-
-private:
-    IdentifyRequest::What what_;
-};
+                used ? "" : "has no effect on a " + kinds_of_estimates()[static_cast<std::size_t>(what)]};
+    };
+}
 
 template <class Fields, class Request>
 void describe_fit(Fields& fields, Request& request) {
-    const KeyOfEstimate key(request);
+    const auto key = keys_of_estimate(request.what);
     const auto of_fits = {IdentifyRequest::What::fit};
     fields.form(key("unknowns", "parameters to be found, by name, or with guesses and bounds", of_fits),
                 "[\"c\"] or { c = { guess, bounds } }", &read_unknowns);
     fields.list("unknowns", request.unknowns, [](auto& one, auto& unknown) {
-        one.field("name", unknown.name);
-        one.field("guess", unknown.guess);
-        one.field("least", unknown.least);
-        one.field("greatest", unknown.greatest);
+        describe_fields(one, "name", unknown.name, "guess", unknown.guess, "least", unknown.least, "greatest",
+                        unknown.greatest);
     });
     fields.form(key("readings",
                     "meaning of the records' values in the model; `true` for a gain or offset that is to be found",
                     of_fits),
                 "[\"q\"] or { q = { value, gain, offset, noise } }", &read_readings);
     fields.list("readings", request.readings, [](auto& one, auto& reading) {
-        one.field("channel", reading.channel);
-        one.field("value", reading.value);
-        one.field("gain_unknown", reading.gain_unknown);
-        one.field("offset_unknown", reading.offset_unknown);
-        one.field("gain", reading.gain);
-        one.field("offset", reading.offset);
-        one.field("noise", reading.noise);
-        if (one.has("may_lack", reading.may_lack))
-            one.field("may_lack", reading.may_lack);
+        describe_fields(one, "channel", reading.channel, "value", reading.value, "gain_unknown", reading.gain_unknown,
+                        "offset_unknown", reading.offset_unknown, "gain", reading.gain, "offset", reading.offset,
+                        "noise", reading.noise);
+        describe_if_given(one, "may_lack", reading.may_lack);
     });
     fields.form(
         key("known",
             "states whose initial values are those of the model (or `from`); `true`: all states. The others are found",
             of_fits),
         "[\"x\"] or true", &read_known);
-    fields.field("known", request.known);
-    fields.field("all_known", request.all_known);
+    describe_fields(fields, "known", request.known, "all_known", request.all_known);
     fields.choice(key("loss", "loss: the weight of large residuals", of_fits), request.loss, names_of_losses());
     fields.number(key("piece",
                       "length of the pieces that records are cut into, in the model's time: shorter ones bear worse "
@@ -231,16 +197,14 @@ void describe_fit(Fields& fields, Request& request) {
 template <class Fields, class Request>
 void describe_identify(Fields& fields, Request& request) {
     using What = IdentifyRequest::What;
-    const KeyOfEstimate key(request);
+    const auto key = keys_of_estimate(request.what);
     fields.choice({"what", "what is found"}, request.what, kinds_of_estimates());
     fields.form({"records", "runs of kind `record`, of which all records are used"}, "\"RUN\" or [\"RUN\"]",
                 &read_records);
     fields.field("records", request.records);
     fields.form({"gives", "the parameter that each number found becomes"}, "{ damping_ratio = \"zeta\" }", &read_gives);
-    fields.list("gives", request.gives, [](auto& one, auto& gives) {
-        one.field("name", gives.first);
-        one.field("parameter", gives.second);
-    });
+    fields.list("gives", request.gives,
+                [](auto& one, auto& gives) { describe_fields(one, "name", gives.first, "parameter", gives.second); });
     fields.line(key("channel", "value of the records that is evaluated", {What::decrement, What::restitution}),
                 request.channel);
     fields.line(
@@ -306,7 +270,7 @@ void describe_identify(Fields& fields, Request& request) {
 /// A run of kind identify.
 template <class Fields, class Run>
 void describe_found_by(Fields& fields, Run& run) {
-    const KeyOfEstimate key(run.identify());
+    const auto key = keys_of_estimate(run.identify().what);
     if constexpr (!Fields::stored) {
         fields.form({"set", "values of further parameters in this run"}, "{ V = 1 }", read_apart);
         fields.form(key("from", "guesses of initial states", {IdentifyRequest::What::fit}), "{ x = 0.1 }", read_apart);

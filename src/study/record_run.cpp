@@ -9,7 +9,6 @@
 #include "graze/record/section.hpp"
 #include "graze/symbolic/function.hpp"
 #include "graze/symbolic/transform.hpp"
-#include "study/bench_records.hpp"
 #include "study/impact_sides.hpp"
 #include "study/record_inputs.hpp"
 
@@ -119,16 +118,23 @@ public:
         read_rows(result);
         if (!request_->reference.empty())
             read_periods(result, coordinates);
-        std::size_t index = 0;
-        for (const RecordSampling& sampling : request_->samplings) {
+        each_sampling([&](const RecordSampling& sampling, std::size_t index) {
             if (sampling.kind == RecordSampling::Kind::impacts)
-                read_impacts(sampling, index++);
-            ++index;
-        }
+                read_impacts(sampling, index);
+        });
         result.samples = in_order();
     }
 
 private:
+    /// Calls `work` with each sampling and its index in the results, where impacts have two.
+    template <class Work>
+    void each_sampling(const Work& work) const {
+        std::size_t index = 0;
+        for (const RecordSampling& sampling : request_->samplings) {
+            work(sampling, index);
+            index += sampling.kind == RecordSampling::Kind::impacts ? 2 : 1;
+        }
+    }
     void add(std::size_t sampling, double time, std::span<const double> values) {
         if (set_.size() >= most_samples)
             throw InputError(fmt::format("more than {} samples would be kept", most_samples),
@@ -144,12 +150,10 @@ private:
         const auto source = open_();
         header_ = source->header();
         std::vector<std::size_t> wanted;
-        std::size_t index = 0;
-        for (const RecordSampling& sampling : request_->samplings) {
+        each_sampling([&](const RecordSampling& sampling, std::size_t index) {
             if (sampling.kind == RecordSampling::Kind::record)
                 wanted.push_back(index);
-            index += sampling.kind == RecordSampling::Kind::impacts ? 2 : 1;
-        }
+        });
         Samples samples;
         bool fits = true;
         double begin = 0;
@@ -184,12 +188,10 @@ private:
         settings.level = request_->level;
         settings.hysteresis = request_->hysteresis;
         const RecordPeriods found = each_period(*source, settings, [&](const Period& period) {
-            std::size_t index = 0;
-            for (const RecordSampling& sampling : request_->samplings) {
+            each_sampling([&](const RecordSampling& sampling, std::size_t index) {
                 if (sampling.is_periodic())
                     take_period(sampling, index, period);
-                index += sampling.kind == RecordSampling::Kind::impacts ? 2 : 1;
-            }
+            });
         });
         coordinates.push_back(found.amplitude);
         result.periods_run = result.cycles = found.count;
@@ -271,20 +273,8 @@ private:
 
 } // namespace
 
-struct RecordRun::State {
-    const StudyRun* run;
-    std::optional<BenchRecords> bench;
-};
-
-RecordRun::RecordRun(const StudyRun& run) : state_(std::make_unique<State>(State{&run, std::nullopt})) {
-    if (run.record().bench)
-        state_->bench.emplace(*run.record().bench);
-}
-
-RecordRun::~RecordRun() = default;
-
 std::optional<PointRecord> RecordRun::point(std::size_t number, const std::function<bool()>& interrupted) {
-    const StudyRun& run = *state_->run;
+    const StudyRun& run = *run_;
     const RecordRequest& request = run.record();
     PointRecord point;
     point.number = number;
@@ -301,10 +291,10 @@ std::optional<PointRecord> RecordRun::point(std::size_t number, const std::funct
         name = fmt::format("{} = {:.10g}", request.bench->parameter, request.bench->levels[level]);
         if (request.bench->repeats > 1)
             name += fmt::format(" ({})", number / request.bench->levels.size() + 1);
-        made = state_->bench->record(number, interrupted);
+        made = bench_->record(number, interrupted);
         if (!made)
             return std::nullopt;
-        raw = [&] { return std::make_unique<StoredSamples>(state_->bench->header(), *made); };
+        raw = [&] { return std::make_unique<StoredSamples>(bench_->header(), *made); };
     } else {
         const RecordInput& input = request.inputs[number];
         point.direction = input.direction;

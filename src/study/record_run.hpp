@@ -2,10 +2,10 @@
 
 #include "graze/results/result_file.hpp"
 #include "graze/study/study.hpp"
+#include "study/bench_records.hpp"
 
 #include <cstddef>
 #include <functional>
-#include <memory>
 #include <optional>
 
 namespace graze {
@@ -14,10 +14,10 @@ namespace graze {
 class RecordRun {
 public:
     /// @param run must outlive this
-    explicit RecordRun(const StudyRun& run);
-    ~RecordRun();
-    RecordRun(const RecordRun&) = delete;
-    RecordRun& operator=(const RecordRun&) = delete;
+    explicit RecordRun(const StudyRun& run) : run_(&run) {
+        if (run.record().bench)
+            bench_.emplace(*run.record().bench);
+    }
 
     /// @param interrupted asked again and again; may be null
     /// @return nothing when it was interrupted
@@ -26,8 +26,8 @@ public:
     std::optional<PointRecord> point(std::size_t number, const std::function<bool()>& interrupted);
 
 private:
-    struct State;
-    std::unique_ptr<State> state_;
+    const StudyRun* run_;
+    std::optional<BenchRecords> bench_;
 };
 
 } // namespace graze

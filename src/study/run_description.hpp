@@ -19,7 +19,6 @@ namespace graze {
 // their reader elsewhere. Stored texts are compared, so that the order of the fields must not change, and a new field
 // is written only where it differs from its default.
 
-std::vector<std::string> short_names_of_points();
 /// The contents of the file of a run's table. Empty when the file cannot be read: the error is thrown when the run is
 /// carried out.
 std::string text_of_table(const BranchRequest& branch);
@@ -33,18 +32,14 @@ void describe_axis(Fields& fields, Axis& axis) {
         fields.field("values", axis.values);
         return;
     }
-    fields.field("low", axis.low);
-    fields.field("high", axis.high);
-    fields.field("logarithmic", axis.logarithmic);
-    fields.field("offset", axis.offset);
+    describe_fields(fields, "low", axis.low, "high", axis.high, "logarithmic", axis.logarithmic, "offset", axis.offset);
 }
 
 template <class Fields, class Bounds>
 void describe_bounds(Fields& fields, Bounds& bounds, const Model& model) {
     fields.list("bounds", bounds, [names = names_of(model.states)](auto& one, auto& bound) {
         one.named("state", bound.state, names);
-        one.field("least", bound.least);
-        one.field("greatest", bound.greatest);
+        describe_fields(one, "least", bound.least, "greatest", bound.greatest);
     });
 }
 
@@ -79,8 +74,7 @@ void describe_monitor(Fields& fields, One& monitor) {
         fields.field("place", monitor.place);
     else if (monitor.kind != Monitor::Kind::duration)
         fields.expression("expression", monitor.expression);
-    fields.field("fixed", monitor.fixed);
-    fields.field("crossings", monitor.crossings);
+    describe_fields(fields, "fixed", monitor.fixed, "crossings", monitor.crossings);
     fields.optional("held", monitor.held);
     fields.optional("least", monitor.least);
     fields.optional("greatest", monitor.greatest);
@@ -116,7 +110,7 @@ void describe_path(Fields& fields, Run& run, const std::vector<std::string>& par
             one.optional("greatest", bounds.greatest);
         });
     fields.form({"stop", "types of points at which the branch ends", !ladder}, "[\"GR\", \"SN\"]", &read_stop);
-    fields.words("stop", branch.stop_at, short_names_of_points());
+    fields.named("stop", branch.stop_at, short_names_of_points());
 }
 
 template <class Fields, class Run>
@@ -179,9 +173,8 @@ void describe_branch(Fields& fields, Run& run) {
         {"accuracy",
          "largest last correction by Newton's method, for orbits and along branches, relative to each unknown"},
         branch.orbit.accuracy, positive_number);
-    fields.field("orbit_tolerance", branch.orbit.tolerance);
-    fields.field("orbit_iterations", branch.orbit.iterations);
-    fields.field("error_estimate", branch.orbit.error_estimate);
+    describe_fields(fields, "orbit_tolerance", branch.orbit.tolerance, "orbit_iterations", branch.orbit.iterations,
+                    "error_estimate", branch.orbit.error_estimate);
     // An orbit that is given by its signature may be inadmissible too.
     if (run.is_followed())
         describe_continuation(fields, run);
@@ -190,12 +183,19 @@ void describe_branch(Fields& fields, Run& run) {
                       "stop_when_unphysical", branch.stop_when_unphysical);
 }
 
+template <class Fields, class Text>
+void describe_section(Fields& fields, Text& section, bool offered) {
+    fields.form({"section",
+                 "section whose passages are counted as returns and periods (the first section of a phase, or the "
+                 "first of all)",
+                 offered},
+                "\"NAME\"", &read_section);
+    fields.field("section", section);
+}
+
 template <class Fields, class Transient>
 void describe_transient(Fields& fields, Transient& transient) {
-    fields.form({"section", "section whose passages are counted as returns and periods (the first section of a phase, "
-                            "or the first of all)"},
-                "\"NAME\"", &read_section);
-    fields.field("section", transient.section);
+    describe_section(fields, transient.section, true);
     fields.form({"skip", "initial part of the motion that is not sampled"}, "{ time = T } or { periods = N }",
                 &read_skip);
     fields.field("skip_time", transient.skip_time);
@@ -217,12 +217,7 @@ template <class Fields, class Attractor>
 void describe_attractor(Fields& fields, Attractor& attractor, RunKind kind) {
     const bool labels = seeks_attractors(kind);
     const bool settles = labels || kind == RunKind::orbit || kind == RunKind::follow;
-    fields.form({"section",
-                 "section whose passages are counted as returns and periods (the first section of a phase, or the "
-                 "first of all)",
-                 settles},
-                "\"NAME\"", &read_section);
-    fields.field("section", attractor.section);
+    describe_section(fields, attractor.section, settles);
     fields.count({"cycles", "returns after which the search gives up", settles}, attractor.cycles,
                  {1, AttractorOptions::most_cycles});
     fields.count({"keep", "number of last returns that are sampled if the motion is not periodic", labels},
@@ -263,8 +258,7 @@ void describe_start(Fields& fields, Start& start) {
     fields.optional("coordinate", start.coordinate);
     fields.field("value", start.value);
     fields.optional("direction", start.direction);
-    fields.field("point", start.point);
-    fields.field("onto", start.onto);
+    describe_fields(fields, "point", start.point, "onto", start.onto);
 }
 
 /// What varies from point to point, and where motions begin.
@@ -298,15 +292,14 @@ void describe_axes(Fields& fields, Run& run, Motion& motion, Request& request) {
             motion.draws, {1});
         fields.count({"seed", "seed of the random numbers", points}, motion.seed, any_seed);
     }
-    if (run.kind == RunKind::sweep)
+    if (run.kind == RunKind::sweep || run.is_followed())
         fields.choice(
-            {"direction", "direction of the first varied value: `both` is up, then down from where that ended"},
+            {"direction",
+             run.kind == RunKind::sweep
+                 ? "direction of the first varied value: `both` is up, then down from where that ended"
+                 : "direction of the parameter at first, since the branch turns at folds. It has no effect if "
+                   "the run starts at a point and leads onto another branch, which has directions of its own"},
             request.direction, {"up", "down", "both"});
-    else if (run.is_followed())
-        fields.choice({"direction",
-                       "direction of the parameter at first, since the branch turns at folds. It has no effect if "
-                       "the run starts at a point and leads onto another branch, which has directions of its own"},
-                      request.direction, {"up", "down", "both"});
     if (run.kind == RunKind::sweep)
         fields.truth(
             {"carry", "each point begins in the state in which the last one ended; `false`: in the initial state"},
@@ -322,9 +315,8 @@ void describe_integration(Fields& fields, const Run& run, Simulation& simulation
     fields.count({"order", "order of the Taylor polynomials", chosen, "by tolerance"}, simulation.order);
     fields.number({"largest_step", "largest step of the integration, in units of the model's time (no limit)", chosen},
                   simulation.largest_step, positive_number);
-    fields.field("step_limit", simulation.step_limit);
-    fields.field("contacts_at_once", simulation.contacts_at_once);
-    fields.field("touch", simulation.touch);
+    describe_fields(fields, "step_limit", simulation.step_limit, "contacts_at_once", simulation.contacts_at_once,
+                    "touch", simulation.touch);
 }
 
 /// Runs that simulate. @param motion of a branch one without axes: what is stored of both is in the same order
@@ -366,8 +358,7 @@ void describe_simulated(Fields& fields, Run& run, Motion& motion, Request& reque
                  "the run varies)",
                  run.kind != RunKind::ladder},
                 "\"RUN\" or [\"RUN\"]", &read_parameters);
-    if (fields.has("parameters", !run.parameters.empty()))
-        fields.field("parameters", run.parameters);
+    describe_if_given(fields, "parameters", run.parameters);
     describe_integration(fields, run, request.simulation);
 }
 
@@ -394,7 +385,7 @@ void describe(Fields& fields, Run& run) {
         fields.form({"model", "another model"}, "\"NAME\" or \"./FILE.toml\"", read_apart);
     } else {
         auto kind = run.kind;
-        fields.word("kind", kind, kinds_of_runs());
+        fields.named("kind", kind, kinds_of_runs());
         if constexpr (Fields::reading)
             run.set_kind(kind);
     }

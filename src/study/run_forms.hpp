@@ -42,4 +42,18 @@ void read_unknowns(const StudyReader& reader, StudyRun& run, const TomlEntry& en
 void read_readings(const StudyReader& reader, StudyRun& run, const TomlEntry& entry);
 void read_known(const StudyReader& reader, StudyRun& run, const TomlEntry& entry);
 
+// What these readers and those of whole runs have in common.
+
+/// Whether an initial state of a run is an expression in what varies, which has another value at each point.
+bool follows_what_varies(const StudyReader& reader, const StudyRun& run, const TomlEntry& item);
+/// Reads these initial states, once the axes are known. @param from the table of initial states
+/// @throws InputError for a state that varies itself, and for an expression in states that do not vary
+void read_following_states(const StudyReader& reader, StudyRun& run, const TomlEntry& from);
+/// @throws InputError when the initial states that follow from others are none that a study could ask for
+void check_following_states(const StudyRun& run, const Place& place);
+/// The key `bench` of a run of kind record, whose model is known.
+void read_bench(const StudyReader& reader, StudyRun& run, const TomlEntry& entry);
+/// The levels that the bench goes through, from what the run varies, which are then no axes of the run.
+void set_levels(const StudyReader& reader, StudyRun& run, const TomlEntry& place);
+
 } // namespace graze

@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 namespace graze {
 
@@ -52,6 +53,20 @@ using FormReader = void (*)(const StudyReader&, StudyRun&, const TomlEntry&);
 /// Stands for the reader of a key that is read before or after all others.
 inline constexpr FormReader read_apart = nullptr;
 
+/// Fields without keys: in turn the name of one and its value.
+template <class Fields, class Value, class... Others>
+void describe_fields(Fields& fields, const char* name, Value& value, Others&... others) {
+    fields.field(name, value);
+    if constexpr (sizeof...(others) > 0)
+        describe_fields(fields, others...);
+}
+/// A field without a key that is stored only where it differs from zero, false or nothing.
+template <class Fields, class Value>
+void describe_if_given(Fields& fields, const char* name, Value& value) {
+    if (fields.has(name, value != std::remove_const_t<Value>()))
+        fields.field(name, value);
+}
+
 /// Base of visitors that see keys only: they ignore fields that are stored without a key.
 class KeysOnly {
 public:
@@ -63,8 +78,6 @@ public:
     void optional(Arguments&&...) const {}
     template <class... Arguments>
     void follows(Arguments&&...) const {}
-    template <class... Arguments>
-    void words(Arguments&&...) const {}
     template <class... Arguments>
     void named(Arguments&&...) const {}
     template <class... Arguments>

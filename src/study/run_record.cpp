@@ -4,7 +4,6 @@
 #include "graze/model/model_file.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/study/stored_study.hpp"
-#include "study/branch_run.hpp"
 
 #include <fmt/format.h>
 

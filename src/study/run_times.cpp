@@ -15,9 +15,7 @@ std::string key_of(const std::string& run) {
 
 template <class Fields, class Times>
 void describe(Fields& fields, Times& times) {
-    fields.field("begun", times.begun);
-    fields.field("ended", times.ended);
-    fields.field("seconds", times.seconds);
+    describe_fields(fields, "begun", times.begun, "ended", times.ended, "seconds", times.seconds);
 }
 
 } // namespace

@@ -84,13 +84,6 @@ bool is_done(const RunRecord& record, ResultFile& file) {
     return false;
 }
 
-/// A copy of a run with the parameters of the point that it starts from.
-StudyRun at_start(const StudyRun& run, const StartPoint& start) {
-    StudyRun result = run;
-    set_parameters(result.model, start.parameters);
-    return result;
-}
-
 /// Carries out the runs of a study, independent ones side by side. Its members are read and changed only by the thread
 /// that holds the file.
 class Runner {
@@ -318,7 +311,9 @@ private:
         const auto start = file_.with([&](const ResultFile& file) {
             return wanted.start ? std::optional(point_to_start_from(wanted, *study_, file)) : std::nullopt;
         });
-        const StudyRun run = start ? at_start(wanted, *start) : wanted;
+        StudyRun run = wanted;
+        if (start)
+            set_parameters(run.model, start->parameters);
         work.report.points = points_of(run);
         const bool done = is_there_or_begins(run, work.report.points, work);
         if (!done)

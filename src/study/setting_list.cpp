@@ -16,25 +16,21 @@ constexpr std::size_t longest_list = 8;
 
 void add(const std::string& name, const Json& json, std::vector<Setting>& all) {
     const auto member = [&](const std::string& last) { return name.empty() ? last : name + "." + last; };
-    switch (json.kind) {
-    case Json::Kind::nothing:
-        return;
-    case Json::Kind::truth:
-        all.push_back({name, std::nullopt, json.truth ? "true" : "false"});
-        return;
-    case Json::Kind::number:
-        all.push_back({name, std::strtod(json.text.c_str(), nullptr), json.text});
-        return;
-    case Json::Kind::text:
-        all.push_back({name, std::nullopt, json.text});
-        return;
-    case Json::Kind::object:
+    using Kind = Json::Kind;
+    if (json.kind == Kind::object) {
         for (std::size_t i = 0; i < json.items.size(); ++i)
             add(member(json.names[i]), json.items[i], all);
         return;
-    case Json::Kind::list:
-        break;
     }
+    if (json.kind != Kind::list && json.kind != Kind::nothing) {
+        const bool number = json.kind == Kind::number;
+        all.push_back({name, number ? std::optional(std::strtod(json.text.c_str(), nullptr)) : std::nullopt,
+                       json.kind != Kind::truth ? json.text
+                       : json.truth             ? "true"
+                                                : "false"});
+    }
+    if (json.kind != Kind::list)
+        return;
     const std::vector<Json>& items = json.items;
     const bool numbers =
         std::all_of(items.begin(), items.end(), [](const Json& item) { return item.kind == Json::Kind::number; });

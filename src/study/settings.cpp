@@ -3,10 +3,8 @@
 #include "graze/base/text_file.hpp"
 #include "graze/results/result_file.hpp"
 #include "graze/study/stored_study.hpp"
-#include "study/asked_run.hpp"
 #include "study/run_description.hpp"
-#include "study/start_state.hpp"
-#include "study/study_reader.hpp"
+#include "study/run_record.hpp"
 
 #include <fmt/format.h>
 
@@ -15,10 +13,11 @@
 
 namespace graze {
 
-std::vector<std::string> short_names_of_points() {
+std::vector<std::string> short_names_of_points(bool PointKind::*which) {
     std::vector<std::string> names;
     for (const PointKind& kind : point_kinds())
-        names.emplace_back(kind.short_name);
+        if (!which || kind.*which)
+            names.emplace_back(kind.short_name);
     return names;
 }
 
@@ -81,19 +80,12 @@ void take_units(StudyRun& run, const std::vector<std::string>& units) {
         monitors[m].unit = unit(m);
 }
 
-/// Checks texts that become names, titles and units.
-void check_texts(const StudyRun& run, const std::vector<const std::vector<std::string>*>& lists) {
-    for (const std::vector<std::string>* texts : lists)
-        for (const std::string& text : *texts)
-            require_plain_line(text, "text of a run", run.place);
-}
-
 void check_record(const StudyRun& run, const SettingsReader& fields) {
     const RecordRequest& request = run.record();
     std::vector<std::string> samplings = run.sampling_names(), inputs;
     for (const RecordInput& input : request.inputs)
         inputs.push_back(input.name);
-    check_texts(run, {&samplings, &run.value_names, &request.directions, &inputs});
+    require_lines({&samplings, &run.value_names, &request.directions, &inputs}, "text of a run", run.place);
     if (run.value_names.size() != run.values.size())
         fields.fail("value_names", "a name for each value");
     if (!request.coordinate.empty() && !run.model.find_independent_parameter(request.coordinate))
@@ -118,7 +110,7 @@ void check_record(const StudyRun& run, const SettingsReader& fields) {
 /// @throws InputError for settings that no study can have
 void check(const StudyRun& run, const SettingsReader& fields) {
     if (run.kind == RunKind::identify)
-        return check_texts(run, {&run.value_names, &run.parameters, &run.identify().records});
+        return require_lines({&run.value_names, &run.parameters, &run.identify().records}, "text of a run", run.place);
     if (run.kind == RunKind::record)
         return check_record(run, fields);
     if (run.value_names.size() != run.values.size())

@@ -26,8 +26,8 @@ const std::vector<Json>& SettingsReader::items_of(std::string_view name, const J
     return json.items;
 }
 
-std::size_t SettingsReader::index_of(std::string_view name, const std::string& text,
-                                     const std::vector<std::string>& names) const {
+std::size_t SettingsReader::index_among(std::string_view name, const std::string& text,
+                                        const std::vector<std::string>& names) const {
     const auto found = std::find(names.begin(), names.end(), text);
     if (found == names.end())
         fail(name, fmt::format("a name that is known, but '{}'", text));
@@ -38,23 +38,6 @@ Expression SettingsReader::parsed(const std::string& text) const {
     if (!model_)
         fail(text, "something that can stand here");
     return named_value(*model_, text, *place_).value;
-}
-
-void SettingsReader::named(std::string_view name, std::size_t& index, const std::vector<std::string>& names) const {
-    std::string text;
-    if (const Json* found = object_->find(name)) {
-        read(name, *found, text);
-        index = index_of(name, text, names);
-    }
-}
-
-void SettingsReader::named(std::string_view name, std::vector<std::size_t>& indices,
-                           const std::vector<std::string>& names) const {
-    std::vector<std::string> texts;
-    field(name, texts);
-    indices.clear();
-    for (const std::string& text : texts)
-        indices.push_back(index_of(name, text, names));
 }
 
 void SettingsReader::expression(std::string_view name, Expression& value) const {

@@ -33,6 +33,15 @@ inline const std::string& word_of(const std::vector<std::string>& words, std::si
     return words[index];
 }
 
+/// The index that an enumerator, a parameter or an index itself is.
+template <class Item>
+std::size_t index_of(const Item& item) {
+    if constexpr (std::is_same_v<Item, ParameterId>)
+        return item.place();
+    else
+        return static_cast<std::size_t>(item);
+}
+
 /// Base of visitors that store the keys of a run as fields, by name and value.
 template <class Fields>
 class StoredKeys {
@@ -64,10 +73,6 @@ public:
     }
     template <class Text>
     void line(const Key& key, Text& value) {
-        fields().field(key.name, value);
-    }
-    template <class Texts>
-    void lines(const Key& key, Texts& value) {
         fields().field(key.name, value);
     }
     template <class Text>
@@ -116,42 +121,22 @@ public:
     /// A value that is not stored but follows from fields: it is set when these are read.
     template <class Value>
     void follows(const Value&, const Value&) const {}
-    /// One of several words.
-    template <class Choice>
-    void word(std::string_view name, Choice choice, const std::vector<std::string>& words) {
-        field(name, word_of(words, static_cast<std::size_t>(choice)));
-    }
-    template <class Choice>
-    void words(std::string_view name, const std::vector<Choice>& choices, const std::vector<std::string>& words) {
-        std::vector<std::string> texts;
-        for (const Choice choice : choices)
-            texts.push_back(word_of(words, static_cast<std::size_t>(choice)));
-        field(name, texts);
-    }
     /// An enumerator, by its number.
     template <class Choice>
     void number(std::string_view name, Choice choice, std::size_t) {
         field(name, static_cast<int>(choice));
     }
-    /// The name at an index, or the names at indices.
-    void named(std::string_view name, std::size_t index, const std::vector<std::string>& names) {
-        field(name, word_of(names, index));
+    /// The name of an enumerator, a parameter or what has this index; of several, their names.
+    template <class Item>
+    void named(std::string_view name, const Item& item, const std::vector<std::string>& names) {
+        field(name, word_of(names, index_of(item)));
     }
-    void named(std::string_view name, const std::vector<std::size_t>& indices, const std::vector<std::string>& names) {
+    template <class Item>
+    void named(std::string_view name, const std::vector<Item>& items, const std::vector<std::string>& names) {
         std::vector<std::string> texts;
-        for (const std::size_t index : indices)
-            texts.push_back(word_of(names, index));
+        for (const Item& item : items)
+            texts.push_back(word_of(names, index_of(item)));
         field(name, texts);
-    }
-    void named(std::string_view name, ParameterId parameter, const std::vector<std::string>& names) {
-        named(name, parameter.place(), names);
-    }
-    void named(std::string_view name, const std::vector<ParameterId>& parameters,
-               const std::vector<std::string>& names) {
-        std::vector<std::size_t> places;
-        for (const ParameterId parameter : parameters)
-            places.push_back(parameter.place());
-        named(name, places, names);
     }
     void expression(std::string_view name, const Expression& value) { field(name, to_string(value)); }
     void expressions(std::string_view name, const std::vector<Expression>& values) {
@@ -235,20 +220,6 @@ public:
         target = value;
     }
     template <class Choice>
-    void word(std::string_view name, Choice& choice, const std::vector<std::string>& words) const {
-        std::size_t index = static_cast<std::size_t>(choice);
-        named(name, index, words);
-        choice = static_cast<Choice>(index);
-    }
-    template <class Choice>
-    void words(std::string_view name, std::vector<Choice>& choices, const std::vector<std::string>& words) const {
-        std::vector<std::size_t> indices;
-        named(name, indices, words);
-        choices.clear();
-        for (const std::size_t index : indices)
-            choices.push_back(static_cast<Choice>(index));
-    }
-    template <class Choice>
     void number(std::string_view name, Choice& choice, std::size_t count) const {
         std::size_t index = static_cast<std::size_t>(choice);
         field(name, index);
@@ -256,20 +227,21 @@ public:
             fail(name, fmt::format("a number below {}", count));
         choice = static_cast<Choice>(index);
     }
-    void named(std::string_view name, std::size_t& index, const std::vector<std::string>& names) const;
-    void named(std::string_view name, std::vector<std::size_t>& indices, const std::vector<std::string>& names) const;
-    void named(std::string_view name, ParameterId& parameter, const std::vector<std::string>& names) const {
-        std::size_t place = parameter.place();
-        named(name, place, names);
-        parameter = ParameterId(place);
+    template <class Item>
+    void named(std::string_view name, Item& item, const std::vector<std::string>& names) const {
+        std::string text;
+        if (const Json* found = object_->find(name)) {
+            read(name, *found, text);
+            item = static_cast<Item>(index_among(name, text, names));
+        }
     }
-    void named(std::string_view name, std::vector<ParameterId>& parameters,
-               const std::vector<std::string>& names) const {
-        std::vector<std::size_t> places;
-        named(name, places, names);
-        parameters.clear();
-        for (const std::size_t place : places)
-            parameters.emplace_back(place);
+    template <class Item>
+    void named(std::string_view name, std::vector<Item>& items, const std::vector<std::string>& names) const {
+        std::vector<std::string> texts;
+        field(name, texts);
+        items.clear();
+        for (const std::string& text : texts)
+            items.push_back(static_cast<Item>(index_among(name, text, names)));
     }
     void expression(std::string_view name, Expression& value) const;
     void expressions(std::string_view name, std::vector<Expression>& values) const;
@@ -296,7 +268,8 @@ public:
 
 private:
     const std::vector<Json>& items_of(std::string_view name, const Json& json) const;
-    std::size_t index_of(std::string_view name, const std::string& text, const std::vector<std::string>& names) const;
+    std::size_t index_among(std::string_view name, const std::string& text,
+                            const std::vector<std::string>& names) const;
     Expression parsed(const std::string& text) const;
 
     void read(std::string_view name, const Json& json, double& value) const;

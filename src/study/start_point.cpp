@@ -1,7 +1,7 @@
 #include "study/start_point.hpp"
 
 #include "graze/base/input_error.hpp"
-#include "study/branch_run.hpp"
+#include "study/run_record.hpp"
 
 #include <fmt/format.h>
 
@@ -23,12 +23,11 @@ std::vector<double> parameters_of(const RunRecord& run, const PointRecord& point
     return model.parameter_values();
 }
 
-/// The number that names a point; a number that no point has where the name is no number.
-std::size_t number_of(const StartFrom& start) {
+/// The number that names a point; none where the name is no number.
+std::optional<std::size_t> number_in(const std::string& name) {
     std::size_t number = 0;
-    const char* last = start.point.data() + start.point.size();
-    const auto [end, error] = std::from_chars(start.point.data(), last, number);
-    return error == std::errc() && end == last ? number : std::numeric_limits<std::int64_t>::max();
+    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+    return error == std::errc() && end == name.data() + name.size() ? std::optional(number) : std::nullopt;
 }
 
 } // namespace
@@ -79,13 +78,10 @@ OrbitRecord orbit_to_start_from(const StartFrom& start, const StudyRun& parent, 
                              "name one: point = \"GR1\", or at = { PARAMETER = VALUE }");
         record = file.orbit(start.run, std::size_t{0});
     } else {
-        const auto named = std::find_if(parent.point_names.begin(), parent.point_names.end(),
-                                        [&](const PointName& one) { return one.name == start.point; });
+        const auto named = std::ranges::find(parent.point_names, start.point, &PointName::name);
         const std::string& label = named != parent.point_names.end() ? named->label : start.point;
-        std::size_t number = 0;
-        const char* last = label.data() + label.size();
-        const auto [end, error] = std::from_chars(label.data(), last, number);
-        record = error == std::errc() && end == last ? file.orbit(start.run, number) : file.orbit(start.run, label);
+        const auto number = number_in(label);
+        record = number ? file.orbit(start.run, *number) : file.orbit(start.run, label);
     }
     if (!record) {
         std::string known;
@@ -126,7 +122,8 @@ StartPoint point_to_start_from(const StudyRun& run, const Study& study, const Re
             throw InputError(start.place, fmt::format("run '{}' has no coordinate '{}'", start.run, *start.coordinate),
                              "name one of those that it varies");
     } else if (!start.point.empty()) {
-        point = file.point(start.run, number_of(start));
+        if (const auto number = number_in(start.point))
+            point = file.point(start.run, *number);
         if (!point)
             throw InputError(start.place, fmt::format("run '{}' has no point {}", start.run, start.point),
                              fmt::format("it has {}", file.point_count(start.run)));

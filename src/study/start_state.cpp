@@ -1,4 +1,4 @@
-#include "study/start_state.hpp"
+#include "study/run_forms.hpp"
 
 #include "graze/base/name_list.hpp"
 #include "graze/symbolic/parser.hpp"

@@ -34,8 +34,7 @@ BranchSettings ladder_settings(const StoredRun& run, const LadderRequest& reques
 }
 
 std::optional<double> first_of(const Branch& branch, PointType type) {
-    const auto found = std::find_if(branch.special.begin(), branch.special.end(),
-                                    [type](const SpecialPoint& point) { return point.type == type; });
+    const auto found = std::ranges::find(branch.special, type, &SpecialPoint::type);
     return found == branch.special.end() ? std::nullopt : std::optional(found->parameter);
 }
 

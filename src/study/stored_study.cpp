@@ -2,8 +2,7 @@
 
 #include "graze/base/file_name.hpp"
 #include "graze/model/model_file.hpp"
-#include "study/asked_run.hpp"
-#include "study/picture_style.hpp"
+#include "study/run_record.hpp"
 #include "study/settings_fields.hpp"
 #include "study/study_reader.hpp"
 
@@ -19,79 +18,50 @@ constexpr const char* key_of_study = "study";
 
 template <class Fields, class Picture>
 void describe_picture(Fields& fields, Picture& picture) {
-    fields.field("name", picture.name);
-    fields.field("kind", picture.kind);
-    fields.field("title", picture.title);
-    fields.field("runs", picture.runs);
-    if (fields.has("over", !picture.over.empty()))
-        fields.field("over", picture.over);
-    fields.field("x", picture.x);
-    fields.field("y", picture.y);
-    fields.field("samples", picture.samplings);
-    fields.field("directions", picture.directions);
+    describe_fields(fields, "name", picture.name, "kind", picture.kind, "title", picture.title, "runs", picture.runs);
+    describe_if_given(fields, "over", picture.over);
+    describe_fields(fields, "x", picture.x, "y", picture.y, "samples", picture.samplings, "directions",
+                    picture.directions);
     fields.optional("x_range", picture.x_range);
     fields.optional("y_range", picture.y_range);
     fields.optional("fit", picture.fit);
-    fields.list("at", picture.at, [](auto& one, auto& at) {
-        one.field("name", at.first);
-        one.field("value", at.second);
-    });
-    fields.field("points", picture.points);
-    fields.field("logarithmic_x", picture.logarithmic_x);
-    fields.field("logarithmic_y", picture.logarithmic_y);
-    fields.field("successive", picture.successive);
-    fields.field("group", picture.group);
-    fields.field("format", picture.format);
+    fields.list("at", picture.at,
+                [](auto& one, auto& at) { describe_fields(one, "name", at.first, "value", at.second); });
+    describe_fields(fields, "points", picture.points, "logarithmic_x", picture.logarithmic_x, "logarithmic_y",
+                    picture.logarithmic_y, "successive", picture.successive, "group", picture.group, "format",
+                    picture.format);
     if (fields.has("names", !picture.names.empty()))
-        fields.list("names", picture.names, [](auto& one, auto& name) {
-            one.field("name", name.first);
-            one.field("text", name.second);
-        });
-    if (fields.has("x_label", !picture.x_label.empty()))
-        fields.field("x_label", picture.x_label);
-    if (fields.has("y_labels", !picture.y_labels.empty()))
-        fields.field("y_labels", picture.y_labels);
-    if (fields.has("width", picture.style.width > 0))
-        fields.field("width", picture.style.width);
-    if (fields.has("height", picture.style.height > 0))
-        fields.field("height", picture.style.height);
-    if (fields.has("font_size", picture.style.font_size > 0))
-        fields.field("font_size", picture.style.font_size);
-    if (fields.has("font", !picture.style.font.empty()))
-        fields.field("font", picture.style.font);
-    if (fields.has("grey", picture.style.grey))
-        fields.field("grey", picture.style.grey);
+        fields.list("names", picture.names,
+                    [](auto& one, auto& name) { describe_fields(one, "name", name.first, "text", name.second); });
+    describe_if_given(fields, "x_label", picture.x_label);
+    describe_if_given(fields, "y_labels", picture.y_labels);
+    describe_if_given(fields, "width", picture.style.width);
+    describe_if_given(fields, "height", picture.style.height);
+    describe_if_given(fields, "font_size", picture.style.font_size);
+    describe_if_given(fields, "font", picture.style.font);
+    describe_if_given(fields, "grey", picture.style.grey);
 }
 
 template <class Fields, class Columns>
 void describe_columns(Fields& fields, std::string_view name, Columns& columns) {
-    fields.list(name, columns, [](auto& one, auto& column) {
-        one.field("name", column.name);
-        one.field("value", column.value);
-    });
+    fields.list(name, columns,
+                [](auto& one, auto& column) { describe_fields(one, "name", column.name, "value", column.value); });
 }
 
 template <class Fields, class Table>
 void describe_table(Fields& fields, Table& table) {
-    fields.field("name", table.name);
-    fields.field("text", table.text);
-    fields.field("runs", table.runs);
+    describe_fields(fields, "name", table.name, "text", table.text, "runs", table.runs);
     describe_columns(fields, "columns", table.columns);
     describe_columns(fields, "ratios", table.ratios);
-    fields.field("points", table.points);
-    fields.field("samples", table.samplings);
-    fields.field("directions", table.directions);
+    describe_fields(fields, "points", table.points, "samples", table.samplings, "directions", table.directions);
 }
 
 template <class Fields, class One>
 void describe_study(Fields& fields, One& study) {
-    fields.field("name", study.name);
-    fields.field("text", study.text);
-    fields.field("source", study.source);
+    describe_fields(fields, "name", study.name, "text", study.text, "source", study.source);
     if (fields.has("set", !study.set.empty()))
         fields.list("set", study.set, [](auto& one, auto& parameter) {
-            one.field("name", parameter.first);
-            one.field("value", parameter.second);
+            describe_fields(one, "name", parameter.first, "value", parameter.second);
         });
     fields.list("pictures", study.pictures, [](auto& one, auto& picture) { describe_picture(one, picture); });
     if (fields.has("tables", !study.tables.empty()))
@@ -108,17 +78,11 @@ struct PlannedRun {
 template <class Fields, class Runs>
 void describe_runs(Fields& fields, Runs& runs) {
     fields.list("runs", runs, [](auto& one, auto& run) {
-        one.field("name", run.asked.name);
-        one.field("kind", run.asked.kind);
-        one.field("model", run.model);
-        one.field("settings", run.asked.settings);
-        one.field("version", run.asked.version);
-        one.field("units", run.asked.units);
+        describe_fields(one, "name", run.asked.name, "kind", run.asked.kind, "model", run.model, "settings",
+                        run.asked.settings, "version", run.asked.version, "units", run.asked.units);
         if (one.has("point_names", !run.point_names.empty()))
-            one.list("point_names", run.point_names, [](auto& point, auto& name) {
-                point.field("label", name.label);
-                point.field("name", name.name);
-            });
+            one.list("point_names", run.point_names,
+                     [](auto& point, auto& name) { describe_fields(point, "label", name.label, "name", name.name); });
     });
 }
 
@@ -137,8 +101,7 @@ PlannedRun planned(const StudyRun& run) {
 /// @throws InputError as for runs that were begun
 StudyRun run_of(const PlannedRun& run, const Place& place) {
     require_file_name(run.asked.name, "name of a run", place);
-    for (const std::string& unit : run.asked.units)
-        require_plain_line(unit, "unit of a value", place);
+    require_lines({&run.asked.units}, "unit of a value", place);
     AskedRun asked = run.asked;
     asked.file = place.file;
     const Place of_model = stored_place(place.file, fmt::format("model of run '{}'", asked.name));
@@ -153,12 +116,10 @@ StudyRun run_of(const PlannedRun& run, const Place& place) {
 void check(StudyPicture& picture, const Place& place) {
     picture.place = place;
     require_file_name(picture.name, "name of a picture", place);
-    for (const std::string* text :
-         {&picture.kind, &picture.title, &picture.x, &picture.group, &picture.format, &picture.x_label})
-        require_plain_line(*text, "text of a picture", place);
-    for (const auto* texts : {&picture.y, &picture.samplings, &picture.directions, &picture.points, &picture.y_labels})
-        for (const std::string& text : *texts)
-            require_plain_line(text, "text of a picture", place);
+    const std::vector<std::string> texts{picture.kind,  picture.title,  picture.x,
+                                         picture.group, picture.format, picture.x_label};
+    require_lines({&texts, &picture.y, &picture.samplings, &picture.directions, &picture.points, &picture.y_labels},
+                  "text of a picture", place);
     for (const auto& [name, value] : picture.at)
         require_plain_line(name, "coordinate", place);
     for (const auto& [name, text] : picture.names)
@@ -172,9 +133,7 @@ void check(StudyPicture& picture, const Place& place) {
 void check(StudyTable& table, const Place& place) {
     table.place = place;
     require_file_name(table.name, "name of a table", place);
-    for (const auto* texts : {&table.points, &table.samplings, &table.directions})
-        for (const std::string& text : *texts)
-            require_plain_line(text, "text of a table", place);
+    require_lines({&table.points, &table.samplings, &table.directions}, "text of a table", place);
     for (const auto* columns : {&table.columns, &table.ratios})
         for (const StudyTable::Column& column : *columns)
             for (const std::string* text : {&column.name, &column.value})

@@ -3,7 +3,7 @@
 #include "graze/base/file_name.hpp"
 #include "graze/base/printable.hpp"
 #include "graze/base/text_file.hpp"
-#include "results/run_names.hpp"
+#include "results/schema.hpp"
 #include "study/start_point.hpp"
 #include "study/study_reader.hpp"
 
@@ -14,7 +14,7 @@
 namespace graze {
 
 const StudyRun* Study::find_run(const std::string& run) const {
-    const auto found = std::find_if(runs.begin(), runs.end(), [&](const StudyRun& one) { return one.name == run; });
+    const auto found = std::ranges::find(runs, run, &StudyRun::name);
     return found == runs.end() ? nullptr : &*found;
 }
 
@@ -41,8 +41,7 @@ void StudyRun::refuse_request() const {
 
 bool StudyRun::varies(const std::string& parameter_or_state) const {
     const auto* motion = std::get_if<MotionRequest>(&request);
-    return motion && std::any_of(motion->axes.begin(), motion->axes.end(),
-                                 [&](const Variation& axis) { return axis.name == parameter_or_state; });
+    return motion && std::ranges::find(motion->axes, parameter_or_state, &Variation::name) != motion->axes.end();
 }
 
 bool BranchRequest::keeps_point() const {

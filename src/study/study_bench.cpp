@@ -1,4 +1,4 @@
-#include "study/study_bench.hpp"
+#include "study/run_forms.hpp"
 
 #include "graze/flow/system.hpp"
 #include "graze/symbolic/function.hpp"
@@ -39,33 +39,30 @@ void read_bench_channels(const StudyReader& reader, StudyRun& run, const TomlEnt
     RecordBench& bench = *run.record().bench;
     reader.each_of(entry, {}, [&](const TomlEntry& item) {
         BenchChannel channel;
-        std::string unit;
-        bool has_unit = false;
+        std::optional<std::string> unit;
         const auto value = [&](const TomlEntry& text) {
             channel.value = named_value(bench.model, reader.toml().string(text), reader.inside(text));
         };
         if (item.node->is_string())
             value(item);
         else
-            reader.each_of(item, {"value", "unit", "noise", "offset", "drift", "range"}, [&](const TomlEntry& part) {
-                if (part.name == "value")
-                    value(part);
-                else if (part.name == "unit")
-                    unit = reader.toml().line(part), has_unit = true;
-                else if (part.name == "range")
-                    channel.range = reader.positive(bench.model, part);
-                else if (part.name == "noise") {
-                    channel.noise = reader.number(bench.model, part);
-                    if (!(channel.noise >= 0))
-                        reader.fail(part, fmt::format("{} is {}", part.path, channel.noise), "give 0 or more");
-                } else
-                    (part.name == "offset" ? channel.offset : channel.drift) = reader.number(bench.model, part);
-            });
+            reader.read_keys(item, {{"value", value},
+                                    {"unit", [&](const TomlEntry& part) { unit = reader.toml().line(part); }},
+                                    {"noise",
+                                     [&](const TomlEntry& part) {
+                                         channel.noise = reader.number(bench.model, part);
+                                         if (!(channel.noise >= 0))
+                                             reader.fail(part, fmt::format("{} is {}", part.path, channel.noise),
+                                                         "give 0 or more");
+                                     }},
+                                    {"offset", reader.into(channel.offset, bench.model)},
+                                    {"drift", reader.into(channel.drift, bench.model)},
+                                    {"range", reader.into(channel.range, bench.model, positive_number)}});
         if (channel.value.name.empty())
             value(item); // throws: it is no expression
         channel.value.name = item.name;
-        if (has_unit)
-            channel.value.unit = unit;
+        if (unit)
+            channel.value.unit = *unit;
         bench.channels.push_back(std::move(channel));
     });
 }

@@ -1,4 +1,5 @@
 #include "graze/base/file_name.hpp"
+#include "graze/base/with_place.hpp"
 #include "graze/model/named_value.hpp"
 #include "study/run_forms.hpp"
 
@@ -83,10 +84,7 @@ void read_along(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
 }
 
 void read_stop(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    std::vector<std::string> known;
-    for (const PointKind& kind : point_kinds())
-        if (kind.may_stop)
-            known.emplace_back(kind.short_name);
+    const std::vector<std::string> known = short_names_of_points(&PointKind::may_stop);
     for (const std::string& name : reader.strings(entry)) {
         const auto type = point_type(name);
         if (!type || std::find(known.begin(), known.end(), name) == known.end())
@@ -262,13 +260,14 @@ void check_branch(const StudyReader& reader, const StudyRun& run, const TomlEntr
                                         "follows nothing",
                                         monitor.name),
                             "leave that out, or choose kind = \"continue\"");
-    try {
-        branch.validate(run.kind, run.model);
-        if (!run.start && !branch.has_table() && branch.signature.empty())
-            branch.attractor.validate(run.model);
-    } catch (const InputError& error) {
-        throw InputError(entry.place, fmt::format("{}: {}", entry.path, error.problem()), error.remedy());
-    }
+    with_place(
+        entry.place,
+        [&] {
+            branch.validate(run.kind, run.model);
+            if (!run.start && !branch.has_table() && branch.signature.empty())
+                branch.attractor.validate(run.model);
+        },
+        entry.path + ": ");
 }
 
 } // namespace graze

@@ -12,6 +12,16 @@ namespace graze {
 
 using What = IdentifyRequest::What;
 
+namespace {
+
+void require_parameter(const StudyReader& reader, const Model& model, const TomlEntry& entry, const std::string& name) {
+    if (!model.find_independent_parameter(name))
+        reader.fail(entry, fmt::format("model '{}' has no parameter '{}'", model.name, name),
+                    study_name_remedy(name, model.independent_parameters()));
+}
+
+} // namespace
+
 void read_records(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     run.identify().records = reader.strings(entry);
     run.identify().records_place = entry.place;
@@ -20,9 +30,7 @@ void read_records(const StudyReader& reader, StudyRun& run, const TomlEntry& ent
 void read_gives(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     reader.each_of(entry, {}, [&](const TomlEntry& item) {
         const std::string parameter = reader.toml().string(item);
-        if (!run.model.find_independent_parameter(parameter))
-            reader.fail(item, fmt::format("model '{}' has no parameter '{}'", run.model.name, parameter),
-                        study_name_remedy(parameter, run.model.independent_parameters()));
+        require_parameter(reader, run.model, item, parameter);
         const std::vector<std::string>& known = estimate_kind(run.identify().what).numbers;
         // From several records there are numbers of each record, under names with the record.
         const bool of_record =
@@ -42,11 +50,8 @@ void read_gives(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
 /// Reads unknowns: names, or { NAME = GUESS }, or { NAME = { guess, bounds } }.
 void read_unknowns(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     const auto add = [&](const TomlEntry& item, const std::string& name) -> IdentifyRequest::Unknown& {
-        if (!run.model.find_independent_parameter(name))
-            reader.fail(item, fmt::format("model '{}' has no parameter '{}'", run.model.name, name),
-                        study_name_remedy(name, run.model.independent_parameters()));
-        run.identify().unknowns.push_back({name, "", "", "", item.place});
-        return run.identify().unknowns.back();
+        require_parameter(reader, run.model, item, name);
+        return run.identify().unknowns.emplace_back(IdentifyRequest::Unknown{name, "", "", "", item.place});
     };
     if (!entry.node->is_table())
         return reader.each(reader.items(entry), [&](const TomlEntry& item) { add(item, reader.toml().string(item)); });
@@ -70,39 +75,32 @@ void read_unknowns(const StudyReader& reader, StudyRun& run, const TomlEntry& en
 
 /// Reads readings: channels, or { CHANNEL = "EXPRESSION" }, or { CHANNEL = { value, gain, offset, noise } }.
 void read_readings(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    const Model none;
-    const auto add = [&](const TomlEntry& item, const std::string& channel,
-                         const std::string& value) -> IdentifyRequest::Reading& {
+    const auto add = [&](const TomlEntry& item, const std::string& channel, const std::string& value) {
         named_value(run.model, value, reader.inside(item));
         IdentifyRequest::Reading& reading = run.identify().readings.emplace_back();
         reading.channel = channel;
         reading.value = value;
         reading.place = reader.inside(item);
-        return reading;
     };
     if (!entry.node->is_table())
         return reader.each(reader.items(entry), [&](const TomlEntry& item) {
             add(item, reader.toml().line(item), reader.toml().line(item));
         });
+    const auto number_or_unknown = [&](double& number, bool& unknown) {
+        return [&](const TomlEntry& part) {
+            part.node->is_boolean() ? reader.into(unknown)(part) : reader.into(number)(part);
+        };
+    };
     reader.each_of(entry, {}, [&](const TomlEntry& item) {
-        if (item.node->is_string()) {
-            add(item, item.name, reader.toml().line(item));
-            return;
-        }
+        if (item.node->is_string())
+            return add(item, item.name, reader.toml().line(item));
         IdentifyRequest::Reading reading;
         reading.channel = reading.value = item.name;
         reading.place = item.place;
-        reader.each_of(item, {"value", "gain", "offset", "noise"}, [&](const TomlEntry& part) {
-            const bool is_gain = part.name == "gain";
-            if (part.name == "value")
-                reading.value = reader.toml().line(part);
-            else if (part.name == "noise")
-                reading.noise = reader.positive(none, part);
-            else if (part.node->is_boolean())
-                (is_gain ? reading.gain_unknown : reading.offset_unknown) = reader.toml().boolean(part);
-            else
-                (is_gain ? reading.gain : reading.offset) = reader.number(none, part);
-        });
+        reader.read_keys(item, {{"value", reader.into(reading.value)},
+                                {"gain", number_or_unknown(reading.gain, reading.gain_unknown)},
+                                {"offset", number_or_unknown(reading.offset, reading.offset_unknown)},
+                                {"noise", reader.into(reading.noise, StudyReader::no_model(), positive_number)}});
         named_value(run.model, reading.value, item.place);
         run.identify().readings.push_back(reading);
     });

@@ -63,12 +63,10 @@ void check_beginning(const StudyReader& reader, RunKind kind, const RunKeys& key
     if (keys.contains("events") && !keys.contains("contacts") && !keys.contains("greatest_speed"))
         refuse("events", "`events` has no effect here: it says which contacts count, and none are counted",
                "leave it out, or give `contacts` or `greatest_speed`");
-    refuse_two("start", "from");
-    refuse_two("start", "mode");
-    refuse_two("start", "signature");
-    refuse_two("start", "table");
-    refuse_two("table", "from");
-    refuse_two("table", "mode");
+    for (const char* other : {"from", "mode", "signature", "table"})
+        refuse_two("start", other);
+    for (const char* other : {"from", "mode"})
+        refuse_two("table", other);
     if (is_branch(kind))
         mistakes.attempt([&] { check_unused(reader, kind, keys); });
     if (kind == RunKind::record && !keys.contains("bench"))

@@ -1,6 +1,7 @@
 #include "study/study_reader.hpp"
 #include "study/point_limits.hpp"
 
+#include "graze/base/file_name.hpp"
 #include "graze/base/printable.hpp"
 #include "graze/base/rounded.hpp"
 #include "graze/results/name_advice.hpp"
@@ -16,6 +17,13 @@ namespace graze {
 
 std::string study_name_remedy(const std::string& name, const std::vector<std::string>& known) {
     return name_advice(name, known, "there are none");
+}
+
+void require_lines(const std::vector<const std::vector<std::string>*>& lists, const std::string& what,
+                   const Place& place) {
+    for (const std::vector<std::string>* texts : lists)
+        for (const std::string& text : *texts)
+            require_plain_line(text, what, place);
 }
 
 std::string embedded_text(std::span<const EmbeddedModel> files, const std::string& kind, const std::string& name) {
@@ -113,6 +121,21 @@ std::vector<std::string> StudyReader::strings(const TomlEntry& entry) const {
     return result;
 }
 
+const Model& StudyReader::no_model() {
+    static const Model none;
+    return none;
+}
+
+void StudyReader::read_keys(const TomlEntry& table, const std::vector<std::pair<std::string, ReadEntry>>& keys) const {
+    std::vector<std::string> names;
+    for (const auto& key : keys)
+        names.push_back(key.first);
+    each_of(table, {}, [&](const TomlEntry& entry) {
+        toml_.require_one_of(names, entry, table.path);
+        keys[static_cast<std::size_t>(std::ranges::find(names, entry.name) - names.begin())].second(entry);
+    });
+}
+
 std::vector<TomlEntry> StudyReader::items(const TomlEntry& entry) const {
     return entry.node->is_array() ? toml_.elements(entry) : std::vector<TomlEntry>{entry};
 }
@@ -169,23 +192,19 @@ void read_variation_table(const StudyReader& reader, const Model& model, const T
     std::size_t points = 0;
     double offset = 0;
     std::optional<std::pair<double, double>> draws;
-    const auto read = [&](const TomlEntry& item) {
-        if (item.name == "from")
-            from = reader.number(model, item);
-        else if (item.name == "to")
-            to = reader.number(model, item);
-        else if (item.name == "step")
-            step = step_of(reader, model, item);
-        else if (item.name == "points")
-            points = reader.count(item, 2, most_values);
-        else if (item.name == "scale")
-            variation.logarithmic = reader.choice(item, {"linear", "log"}) == 1;
-        else if (item.name == "offset")
-            offset = reader.number(model, item);
-        else
-            draws = reader.range(model, item);
+    const auto into = [&](std::optional<double>& value) {
+        return [&](const TomlEntry& item) { value = reader.number(model, item); };
     };
-    reader.each_of(entry, {"from", "to", "step", "points", "scale", "random", "offset"}, read);
+    reader.read_keys(entry, {{"from", into(from)},
+                             {"to", into(to)},
+                             {"step", [&](const TomlEntry& item) { step = step_of(reader, model, item); }},
+                             {"points", reader.into(points, {2, most_values})},
+                             {"scale",
+                              [&](const TomlEntry& item) {
+                                  variation.logarithmic = reader.choice(item, {"linear", "log"}) == 1;
+                              }},
+                             {"random", [&](const TomlEntry& item) { draws = reader.range(model, item); }},
+                             {"offset", reader.into(offset, model)}});
     const double least = draws ? draws->first : from.value_or(1);
     if (variation.logarithmic && !(least > 0))
         reader.fail(entry, fmt::format("{} begins at {} on a logarithmic scale", entry.path, least),

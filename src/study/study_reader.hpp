@@ -57,6 +57,32 @@ public:
             work(entry);
         });
     }
+    using ReadEntry = std::function<void(const TomlEntry&)>;
+    /// Reads a table in which only these keys may stand, each by its function. All mistakes are reported together.
+    void read_keys(const TomlEntry& table, const std::vector<std::pair<std::string, ReadEntry>>& keys) const;
+    /// What reads an entry into a variable that outlives it: a line, lines, true or false, or numbers.
+    ReadEntry into(std::string& text) const {
+        return [this, &text](const TomlEntry& e) { text = toml_.line(e); };
+    }
+    ReadEntry into(std::vector<std::string>& lines) const {
+        return [this, &lines](const TomlEntry& e) { lines = strings(e); };
+    }
+    ReadEntry into(bool& truth) const {
+        return [this, &truth](const TomlEntry& e) { truth = toml_.boolean(e); };
+    }
+    /// @param model may name parameters in it
+    ReadEntry into(double& value, const Model& model = no_model(), const NumberRange& range = any_number) const {
+        return [this, &value, &model, range](const TomlEntry& e) { value = number(model, e, range); };
+    }
+    ReadEntry into(std::size_t& value, const CountRange& range) const {
+        return [this, &value, range](const TomlEntry& e) { value = count(e, range.least, range.most); };
+    }
+    ReadEntry into(std::optional<std::pair<double, double>>& ends) const {
+        return [this, &ends](const TomlEntry& e) { ends = range(no_model(), e); };
+    }
+    /// A model without names, for numbers that depend on nothing.
+    static const Model& no_model();
+
     /// The items of a list; an entry that is no list counts as a list of one.
     std::vector<TomlEntry> items(const TomlEntry& entry) const;
 
@@ -145,6 +171,11 @@ std::string study_name_remedy(const std::string& name, const std::vector<std::st
 /// @throws InputError when there is none of this name
 std::string embedded_text(std::span<const EmbeddedModel> files, const std::string& kind, const std::string& name);
 
+/// Checks texts that become names, titles and units.
+void require_lines(const std::vector<const std::vector<std::string>*>& lists, const std::string& what,
+                   const Place& place);
+/// The short names of the types of points: of all, or of those of which this holds.
+std::vector<std::string> short_names_of_points(bool PointKind::*which = nullptr);
 /// The formats of files of pictures.
 std::vector<std::string> picture_formats();
 

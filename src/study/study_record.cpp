@@ -3,7 +3,6 @@
 #include "graze/symbolic/parser.hpp"
 #include "study/record_inputs.hpp"
 #include "study/run_forms.hpp"
-#include "study/study_bench.hpp"
 
 #include <fmt/format.h>
 
@@ -13,11 +12,6 @@
 namespace graze {
 
 namespace {
-
-const Model& no_model() {
-    static const Model none;
-    return none;
-}
 
 void read_files(const StudyReader& reader, const TomlEntry& entry, std::size_t direction, RecordRequest& request) {
     if (!entry.node->is_string() && !entry.node->is_array())
@@ -53,44 +47,35 @@ void read_scales(const StudyReader& reader, StudyRun& run, const TomlEntry& entr
         RecordProcessing::Scale scale;
         scale.channel = channel.name;
         if (channel.node->is_table())
-            reader.each_of(channel, {"factor", "offset", "unit"}, [&](const TomlEntry& item) {
-                if (item.name == "unit")
-                    scale.unit = reader.toml().line(item);
-                else
-                    (item.name == "factor" ? scale.factor : scale.offset) = reader.number(no_model(), item);
-            });
+            reader.read_keys(channel,
+                             {{"factor", reader.into(scale.factor)},
+                              {"offset", reader.into(scale.offset)},
+                              {"unit", [&](const TomlEntry& item) { scale.unit = reader.toml().line(item); }}});
         else
-            scale.factor = reader.number(no_model(), channel);
+            scale.factor = reader.number(StudyReader::no_model(), channel);
         run.record().processing.scales.push_back(scale);
     });
 }
 
 void read_part(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    std::tie(run.record().processing.begin, run.record().processing.end) = reader.range(no_model(), entry);
+    std::tie(run.record().processing.begin, run.record().processing.end) = reader.range(StudyReader::no_model(), entry);
 }
 
 void read_filter(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     RecordProcessing& processing = run.record().processing;
-    reader.each_of(entry, {"pass", "stop"}, [&](const TomlEntry& item) {
-        (item.name == "pass" ? processing.pass : processing.stop) = reader.positive(no_model(), item);
-    });
+    const auto positive = [&](double& number) { return reader.into(number, StudyReader::no_model(), positive_number); };
+    reader.read_keys(entry, {{"pass", positive(processing.pass)}, {"stop", positive(processing.stop)}});
     if (processing.pass == 0)
         reader.fail(entry, fmt::format("{} does not say what passes", entry.path), "give pass = FREQUENCY");
 }
 
 void read_derivative(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     RecordProcessing& processing = run.record().processing;
-    if (entry.node->is_string()) {
-        processing.derivative = reader.toml().line(entry);
-        return;
-    }
-    reader.each_of(entry, {"channel", "half_width"}, [&](const TomlEntry& item) {
-        if (item.name == "channel")
-            processing.derivative = reader.toml().line(item);
-        else
-            processing.half_width =
-                reader.count(item, RecordProcessing::least_half_width, RecordProcessing::most_half_width);
-    });
+    if (entry.node->is_string())
+        return reader.into(processing.derivative)(entry);
+    reader.read_keys(entry, {{"channel", reader.into(processing.derivative)},
+                             {"half_width", reader.into(processing.half_width, {RecordProcessing::least_half_width,
+                                                                                RecordProcessing::most_half_width})}});
 }
 
 namespace {
@@ -107,36 +92,39 @@ RecordSampling read_record_sampling(const StudyReader& reader, const TomlEntry& 
         placed = true;
         sampling.kind = kind;
     };
-    reader.each_of(
-        entry,
-        {"section", "maxima", "minima", "record", "peak_to_peak", "amplitude", "impacts", "image", "displacement",
-         "window", "transition", "least_jump"},
-        [&](const TomlEntry& item) {
-            if (item.name == "section") {
-                place(Kind::section);
-                sampling.phase = reader.number(no_model(), item);
-                if (!(sampling.phase >= 0 && sampling.phase < 1))
-                    reader.fail(item, fmt::format("{} is no part of a period", item.path),
-                                "give a number from 0 to less than 1");
-            } else if (item.name == "maxima" || item.name == "minima" || item.name == "impacts") {
-                place(item.name == "maxima" ? Kind::maxima : item.name == "minima" ? Kind::minima : Kind::impacts);
-                sampling.channel = reader.toml().line(item);
-            } else if (item.name == "image") {
-                sampling.negated = reader.strings(item);
-            } else if (item.name == "displacement") {
-                sampling.displacement = reader.toml().line(item);
-            } else if (item.name == "window") {
-                sampling.impacts.window = reader.count(item, ImpactWindow::least_window, ImpactWindow::most_window);
-            } else if (item.name == "transition") {
-                sampling.impacts.transition = reader.count(item, 0, ImpactWindow::most_window);
-            } else if (item.name == "least_jump") {
-                sampling.impacts.least_jump = reader.number(no_model(), item);
-            } else if (reader.toml().boolean(item)) {
-                place(item.name == "record"         ? Kind::record
-                      : item.name == "peak_to_peak" ? Kind::peak_to_peak
-                                                    : Kind::amplitude);
-            }
-        });
+    const auto of_channel = [&](Kind kind) {
+        return [&, kind](const TomlEntry& item) {
+            place(kind);
+            sampling.channel = reader.toml().line(item);
+        };
+    };
+    const auto of_all = [&](Kind kind) {
+        return [&, kind](const TomlEntry& item) {
+            if (reader.toml().boolean(item))
+                place(kind);
+        };
+    };
+    const auto of_phase = [&](const TomlEntry& item) {
+        place(Kind::section);
+        sampling.phase = reader.number(StudyReader::no_model(), item);
+        if (!(sampling.phase >= 0 && sampling.phase < 1))
+            reader.fail(item, fmt::format("{} is no part of a period", item.path),
+                        "give a number from 0 to less than 1");
+    };
+    ImpactWindow& impacts = sampling.impacts;
+    reader.read_keys(entry,
+                     {{"section", of_phase},
+                      {"maxima", of_channel(Kind::maxima)},
+                      {"minima", of_channel(Kind::minima)},
+                      {"record", of_all(Kind::record)},
+                      {"peak_to_peak", of_all(Kind::peak_to_peak)},
+                      {"amplitude", of_all(Kind::amplitude)},
+                      {"impacts", of_channel(Kind::impacts)},
+                      {"image", reader.into(sampling.negated)},
+                      {"displacement", reader.into(sampling.displacement)},
+                      {"window", reader.into(impacts.window, {ImpactWindow::least_window, ImpactWindow::most_window})},
+                      {"transition", reader.into(impacts.transition, {0, ImpactWindow::most_window})},
+                      {"least_jump", reader.into(impacts.least_jump)}});
     if (!placed)
         reader.fail(entry, fmt::format("{} does not say where", entry.path),
                     "give one of section, maxima, minima, peak_to_peak, amplitude, impacts or record");
@@ -177,17 +165,11 @@ void read_reference(const StudyReader& reader, RecordRequest& request, const Tom
     if (entry.node->is_string())
         request.reference = reader.toml().line(entry);
     else
-        reader.each_of(entry, {"channel", "level", "hysteresis"}, [&](const TomlEntry& item) {
-            if (item.name == "channel")
-                request.reference = reader.toml().line(item);
-            else if (item.name == "level")
-                request.level = reader.number(no_model(), item);
-            else
-                request.hysteresis = reader.positive(no_model(), item);
-        });
-    const bool known = std::any_of(request.channels.begin(), request.channels.end(),
-                                   [&](const auto& one) { return one.name == request.reference; });
-    if (!known)
+        reader.read_keys(entry,
+                         {{"channel", reader.into(request.reference)},
+                          {"level", reader.into(request.level)},
+                          {"hysteresis", reader.into(request.hysteresis, StudyReader::no_model(), positive_number)}});
+    if (std::ranges::find(request.channels, request.reference, &RecordRequest::Kept::name) == request.channels.end())
         reader.fail(entry, fmt::format("there is no channel '{}'", request.reference),
                     "name one of those that the run keeps");
 }
@@ -308,10 +290,8 @@ void read_record(const StudyReader& reader, StudyRun& run, const RunKeys& keys) 
     if (!request.reference.empty()) {
         if (request.coordinate.empty())
             request.coordinate = "amplitude";
-        const auto of = std::find_if(states.begin(), states.end(),
-                                     [&](const RecordedName& one) { return one.name == request.reference; });
-        if (std::any_of(states.begin(), states.end(),
-                        [&](const RecordedName& one) { return one.name == request.coordinate; }))
+        const auto of = std::ranges::find(states, request.reference, &RecordedName::name);
+        if (std::ranges::find(states, request.coordinate, &RecordedName::name) != states.end())
             reader.fail(
                 keys.at("reference"),
                 fmt::format("'{}' is a channel, and so cannot be the amplitude of the reference", request.coordinate),

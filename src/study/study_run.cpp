@@ -1,10 +1,8 @@
 #include "graze/base/file_name.hpp"
+#include "graze/base/with_place.hpp"
 #include "graze/model/catalogue.hpp"
 #include "study/key_reader.hpp"
 #include "study/run_description.hpp"
-#include "study/start_state.hpp"
-#include "study/study_reader.hpp"
-#include "study/study_sampling.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -59,11 +57,8 @@ void set_values(const StudyReader& reader, Model& model, const TomlEntry& entry,
         if (is_given && model.find_independent_parameter(item.name))
             return;
         const double value = reader.number(model, item);
-        try {
-            initial ? model.set_initial(item.name, value) : model.set_parameter(item.name, value);
-        } catch (const InputError& error) {
-            throw InputError(item.place, error.problem(), error.remedy());
-        }
+        with_place(item.place,
+                   [&] { initial ? model.set_initial(item.name, value) : model.set_parameter(item.name, value); });
     });
 }
 
@@ -113,13 +108,11 @@ void complete(StudyRun& run, const TomlEntry& entry) {
                 run.value_units.push_back(model.states[i].unit);
                 run.values.push_back(model.symbol(model.states[i].name));
             }
-    try {
-        if (run.is_branch())
-            return run.branch().simulation.validate();
-        complete_motion(run);
-    } catch (const InputError& error) {
-        throw InputError(entry.place, fmt::format("{}: {}", entry.path, error.problem()), error.remedy());
-    }
+    with_place(
+        entry.place, [&] { run.is_branch() ? run.branch().simulation.validate() : complete_motion(run); },
+        entry.path + ": ");
+    if (run.is_branch())
+        return;
     const std::vector<Variation>& axes = run.motion().axes;
     if (run.kind == RunKind::sweep && (axes.empty() || axes.front().values.empty()))
         throw InputError(entry.place, fmt::format("{} sweeps nothing", entry.path),
@@ -155,11 +148,8 @@ void read_beginning(const StudyReader& reader, StudyRun& run, const StudyDefault
                    [&](const TomlEntry& item) { return follows_what_varies(reader, run, item); });
     });
     with_key(mistakes, keys, "mode", [&](const TomlEntry& mode) {
-        try {
-            run.model.set_initial_mode(reader.toml().string(mode));
-        } catch (const InputError& error) {
-            reader.fail(mode, error.problem(), error.remedy());
-        }
+        const std::string name = reader.toml().string(mode);
+        with_place(reader.toml().place(*mode.node), [&] { run.model.set_initial_mode(name); });
     });
     mistakes.throw_noted();
 }

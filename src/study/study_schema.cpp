@@ -3,36 +3,38 @@
 #include "graze/study/study_keys.hpp"
 #include "study/settings_fields.hpp"
 
+#include <map>
+#include <string>
+#include <vector>
+
 namespace graze {
 
 namespace {
 
 using Texts = std::vector<std::string>;
 
+/// @param type empty: any
+void describe(SettingsWriter& fields, const std::string& type, const std::string& meaning) {
+    if (!type.empty())
+        fields.field("type", type);
+    fields.field("description", meaning);
+}
+
 /// Numbers may be expressions in the model's parameters.
-void describe_type(SettingsWriter& fields, const StudyKey& key) {
-    if (key.type == "whole number")
-        fields.field("type", std::string("integer"));
-    else if (key.type == "number")
+void describe_key(SettingsWriter& fields, const StudyKey& key) {
+    static const std::map<std::string, std::string> types{
+        {"whole number", "integer"}, {"true or false", "boolean"}, {"text", "string"}};
+    if (key.type == "number")
         fields.field("type", Texts{"number", "string"});
-    else if (key.type == "true or false")
-        fields.field("type", std::string("boolean"));
-    else if (key.type == "text")
-        fields.field("type", std::string("string"));
     else if (key.type == "one of")
         fields.field("enum", key.words);
+    else if (const auto found = types.find(key.type); found != types.end())
+        fields.field("type", found->second);
     if (key.least)
         fields.field(key.includes_least ? "minimum" : "exclusiveMinimum", *key.least);
     if (key.most)
         fields.field("maximum", *key.most);
-}
-
-void describe_key(SettingsWriter& fields, const StudyKey& key) {
-    describe_type(fields, key);
-    std::string text = key.meaning;
-    if (!key.standard.empty())
-        text += " (" + key.standard + ")";
-    fields.field("description", text);
+    describe(fields, "", key.standard.empty() ? key.meaning : key.meaning + " (" + key.standard + ")");
 }
 
 void describe_kind(SettingsWriter& fields, const std::string& kind, const std::vector<StudyKey>& keys) {
@@ -52,8 +54,7 @@ void describe_kind(SettingsWriter& fields, const std::string& kind, const std::v
 }
 
 void describe_runs(SettingsWriter& runs) {
-    runs.field("type", std::string("object"));
-    runs.field("description", std::string("named runs: what is computed"));
+    describe(runs, "object", "named runs: what is computed");
     runs.object("additionalProperties", [](SettingsWriter& run) {
         run.field("type", std::string("object"));
         run.field("required", Texts{"kind"});
@@ -75,24 +76,18 @@ std::string study_schema() {
     schema.field("type", std::string("object"));
     schema.field("required", Texts{"name", "runs"});
     schema.object("properties", [](SettingsWriter& all) {
-        const auto text = [&](const char* name, const char* meaning) {
-            all.object(name, [&](SettingsWriter& one) {
-                one.field("type", std::string("string"));
-                one.field("description", std::string(meaning));
-            });
+        const auto property = [&](const char* name, const char* type, const char* meaning) {
+            all.object(name, [&](SettingsWriter& one) { describe(one, type, meaning); });
         };
-        const auto other = [&](const char* name, const char* meaning) {
-            all.object(name, [&](SettingsWriter& one) { one.field("description", std::string(meaning)); });
-        };
-        text("name", "of the study; its folder bears it");
-        text("text", "what it does");
-        text("source", "where it comes from");
-        text("model", "name of a shipped model, or the path of a model file relative to the study");
-        other("set", "values of parameters, for all runs");
-        other("values", "what is sampled, for all runs that do not say");
+        property("name", "string", "of the study; its folder bears it");
+        property("text", "string", "what it does");
+        property("source", "string", "where it comes from");
+        property("model", "string", "name of a shipped model, or the path of a model file relative to the study");
+        property("set", "", "values of parameters, for all runs");
+        property("values", "", "what is sampled, for all runs that do not say");
         all.object("runs", [](SettingsWriter& runs) { describe_runs(runs); });
-        other("pictures", "named pictures");
-        other("tables", "named tables");
+        property("pictures", "", "named pictures");
+        property("tables", "", "named tables");
     });
     schema.field("additionalProperties", false);
     return schema.text() + "\n";

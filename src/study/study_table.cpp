@@ -37,11 +37,14 @@ public:
     TableMaker(const StudyTable& asked, const ResultFile& file) : asked_(&asked) {
         for (const std::string& name : asked.runs)
             runs_.emplace_back(file, name, asked.place);
-        for (const StoredRun& run : runs_)
-            branches_ = branches_ || run.record.is_branch();
-        for (const StoredRun& run : runs_)
-            named_ = named_ || !run.record.point_names.empty();
-        heading_ = (runs_.size() > 1 ? 1u : 0u) + (branches_ ? 1u : 0u) + (named_ ? 1u : 0u);
+        const auto any = [&](auto holds) { return std::any_of(runs_.begin(), runs_.end(), holds); };
+        branches_ = any([](const StoredRun& run) { return run.record.is_branch(); });
+        if (runs_.size() > 1)
+            heading_.emplace_back("run");
+        if (branches_)
+            heading_.emplace_back("label");
+        if (any([](const StoredRun& run) { return !run.record.point_names.empty(); }))
+            heading_.emplace_back("name");
     }
 
     Table make() {
@@ -63,12 +66,8 @@ public:
 private:
     std::vector<Table::Column> columns() const {
         std::vector<Table::Column> columns;
-        if (runs_.size() > 1)
-            columns.push_back({"run", ""});
-        if (branches_)
-            columns.push_back({"label", ""});
-        if (named_)
-            columns.push_back({"name", ""});
+        for (const std::string& name : heading_)
+            columns.push_back({name, ""});
         for (const StudyTable::Column& column : asked_->columns)
             columns.push_back({column.name, runs_.front().unit(column.value)});
         for (const StudyTable::Column& ratio : asked_->ratios)
@@ -108,12 +107,10 @@ private:
             if (branches_ && !is_asked_for(run, rows.text(0), rows.text(1)))
                 continue;
             std::vector<Cell>& row = rows_.emplace_back();
-            if (runs_.size() > 1)
-                row.emplace_back(run.record.name);
-            if (branches_)
-                row.emplace_back(rows.text(1));
-            if (named_)
-                row.emplace_back(run.record.point_name(rows.text(1)));
+            for (const std::string& name : heading_)
+                row.emplace_back(name == "run"     ? run.record.name
+                                 : name == "label" ? rows.text(1)
+                                                   : run.record.point_name(rows.text(1)));
             for (std::size_t c = selection.columns.size(); c < rows.columns(); ++c)
                 row.push_back(cell_of(rows, c));
         }
@@ -131,8 +128,8 @@ private:
         return value && std::isfinite(*value) ? *value : not_a_number;
     }
     double ratio_at(std::size_t row, const std::string& name) const {
-        std::size_t column = heading_;
-        while (asked_->columns[column - heading_].name != name)
+        std::size_t column = heading_.size();
+        while (asked_->columns[column - heading_.size()].name != name)
             ++column;
         const double before = number(row + 1, column) - number(row, column);
         return before == 0 ? not_a_number : (number(row + 2, column) - number(row + 1, column)) / before;
@@ -140,9 +137,8 @@ private:
 
     const StudyTable* asked_;
     std::vector<StoredRun> runs_;
-    bool branches_ = false,
-         named_ = false;      ///< whether rows are of branches, and whether the study names points of them
-    std::size_t heading_ = 0; ///< columns before those that are asked for
+    bool branches_ = false;            ///< whether rows are of branches
+    std::vector<std::string> heading_; ///< columns before those that are asked for
     std::vector<std::vector<Cell>> rows_;
 };
 

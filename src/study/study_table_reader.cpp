@@ -59,19 +59,15 @@ void read_points(const StudyReader& reader, const TomlEntry& entry, const Study&
     const auto is_name = [&](const std::string& text) {
         return std::any_of(table.runs.begin(), table.runs.end(), [&](const std::string& name) {
             const StudyRun* run = study.find_run(name);
-            return run && std::any_of(run->point_names.begin(), run->point_names.end(),
-                                      [&](const PointName& point) { return point.name == text; });
+            return run && std::ranges::find(run->point_names, text, &PointName::name) != run->point_names.end();
         });
     };
     table.points = reader.strings(entry);
     for (const std::string& point : table.points) {
         if (point_type(point) || is_point_label(point) || is_name(point))
             continue;
-        std::vector<std::string> types;
-        for (const PointKind& kind : point_kinds())
-            types.emplace_back(kind.short_name);
         reader.fail(entry, fmt::format("'{}' is no label, no name and no type of points", point),
-                    fmt::format("labels are like GR1; types are {}", fmt::join(types, ", ")));
+                    fmt::format("labels are like GR1; types are {}", fmt::join(short_names_of_points(), ", ")));
     }
 }
 
@@ -140,23 +136,16 @@ StudyTable read_table(const StudyReader& reader, const TomlEntry& entry, const S
     std::optional<TomlEntry> ratios, points;
     Mistakes mistakes;
     mistakes.attempt([&] { require_file_name(table.name, "name of a table", entry.place); });
-    const auto read = [&](const TomlEntry& item) {
-        const std::string& key = item.name;
-        if (key == "text")
-            table.text = reader.toml().string(item);
-        else if (key == "run" || key == "runs")
-            table.runs = reader.strings(item);
-        else if (key == "columns")
-            read_columns(reader, item, table);
-        else if (key == "ratios")
-            ratios = item;
-        else if (key == "points")
-            points = item;
-        else
-            (key == "samples" ? table.samplings : table.directions) = reader.strings(item);
-    };
+    const auto later = [](std::optional<TomlEntry>& kept) { return [&kept](const TomlEntry& item) { kept = item; }; };
     mistakes.attempt([&] {
-        reader.each_of(entry, {"text", "run", "runs", "columns", "ratios", "points", "samples", "directions"}, read);
+        reader.read_keys(entry, {{"text", [&](const TomlEntry& item) { table.text = reader.toml().string(item); }},
+                                 {"run", reader.into(table.runs)},
+                                 {"runs", reader.into(table.runs)},
+                                 {"columns", [&](const TomlEntry& item) { read_columns(reader, item, table); }},
+                                 {"ratios", later(ratios)},
+                                 {"points", later(points)},
+                                 {"samples", reader.into(table.samplings)},
+                                 {"directions", reader.into(table.directions)}});
     });
     mistakes.throw_noted();
     if (table.runs.empty())

@@ -1,6 +1,5 @@
-#include "study/touch_findings.hpp"
-
 #include "graze/grazing/verdict.hpp"
+#include "study/branch_part.hpp"
 
 #include <string>
 #include <vector>

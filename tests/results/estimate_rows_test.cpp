@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 namespace graze {
 namespace {
 
@@ -29,14 +31,12 @@ TEST(EstimateRows, AreReadAsWritten) {
     file.set_estimates("b", {{{"e", "", {0.8, 0.1, 3}, ""}}, {}});
     const EstimateRecords read = file.estimates("a");
     ASSERT_EQ(read.numbers.size(), 2);
-    for (std::size_t i = 0; i < 2; ++i) {
-        EXPECT_EQ(read.numbers[i].name, found.numbers[i].name);
-        EXPECT_EQ(read.numbers[i].unit, found.numbers[i].unit);
-        EXPECT_EQ(read.numbers[i].note, found.numbers[i].note);
-        EXPECT_EQ(read.numbers[i].estimate.value, found.numbers[i].estimate.value);
-        EXPECT_EQ(read.numbers[i].estimate.error, found.numbers[i].estimate.error);
-        EXPECT_EQ(read.numbers[i].estimate.freedom, found.numbers[i].estimate.freedom);
-    }
+    const auto contents_of = [](const EstimateRecord& number) {
+        const Estimate& estimate = number.estimate;
+        return std::tuple(number.name, number.unit, number.note, estimate.value, estimate.error, estimate.freedom);
+    };
+    for (std::size_t i = 0; i < 2; ++i)
+        EXPECT_EQ(contents_of(read.numbers[i]), contents_of(found.numbers[i]));
     EXPECT_EQ(read.covariance, found.covariance);
     EXPECT_TRUE(file.estimates("b").covariance.empty());
     {

@@ -5,13 +5,12 @@
 
 #include "base/temporary_folder.hpp"
 #include "graze/model/catalogue.hpp"
-#include "graze/model/model_file.hpp"
 #include "graze/results/stored_run.hpp"
+
+#include "run_of_model.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <sqlite3.h>
 
 #include <functional>
 
@@ -45,40 +44,22 @@ protected:
         point.result.lyapunov = 0.25;
         point.result.samples = {.width = 1, .samplings = {0}, .times = {0.5}, .values = {7}};
         ResultFile file(path, ResultFile::Access::write);
-        file.begin_run(run_of("b", "continue", "omega"));
+        file.begin_run(run_of("b", "continue"));
         file.add_orbit("b", orbit);
-        file.begin_run(run_of("s", "sweep", "omega"));
+        file.begin_run(run_of("s", "sweep"));
         file.add_point("s", point);
     }
 
-    RunRecord run_of(const std::string& name, const std::string& kind, const std::string& coordinate) const {
-        RunRecord run;
-        run.name = name;
-        run.kind = kind;
-        run.model_name = model.name;
-        run.model = write_model(model);
-        run.coordinates = {{coordinate, ""}};
-        if (run.is_branch()) { // which has all
-            run.coordinates.clear();
-            for (const std::string& parameter : model.independent_parameters())
-                run.coordinates.push_back({parameter, ""});
-        }
-        for (const State& state : model.states)
-            run.states.push_back({state.name, ""});
+    RunRecord run_of(const std::string& name, const std::string& kind) const {
+        RunRecord run = testing::run_of(model, name, kind);
+        if (!run.is_branch()) // which has all parameters
+            run.coordinates = {{"omega", ""}};
         run.values = {{"added_later", ""}};
         run.samplings = {"phase0"};
-        for (const Mode& mode : model.modes)
-            run.modes.push_back(mode.name);
         run.directions = {"up"};
         return run;
     }
-    void change(const std::string& sql) const {
-        sqlite3* database = nullptr;
-        ASSERT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);
-        char* message = nullptr;
-        EXPECT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, &message), SQLITE_OK) << message;
-        sqlite3_close(database);
-    }
+    void change(const std::string& sql) const { testing::change(path, sql); }
     static std::string refusal(const std::function<void()>& work) {
         try {
             work();

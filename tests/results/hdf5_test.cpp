@@ -1,7 +1,9 @@
 #include "graze/results/hdf5.hpp"
 
 #include "graze/model/catalogue.hpp"
-#include "graze/model/model_file.hpp"
+
+#include "base/temporary_folder.hpp"
+#include "run_of_model.hpp"
 
 #include <gtest/gtest.h>
 #include <hdf5.h>
@@ -21,6 +23,14 @@ namespace {
 
 /// A dataset of an HDF5 file.
 class Column {
+    template <class Property>
+    auto of_type(Property property) const {
+        const hid_t type = H5Dget_type(set_);
+        const auto result = property(type);
+        H5Tclose(type);
+        return result;
+    }
+
 public:
     Column(const std::string& file, const std::string& name)
         : file_(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT)), set_(H5Dopen2(file_, name.c_str(), H5P_DEFAULT)) {}
@@ -31,12 +41,7 @@ public:
     Column(const Column&) = delete;
     Column& operator=(const Column&) = delete;
 
-    H5T_class_t type() const {
-        const hid_t type = H5Dget_type(set_);
-        const H5T_class_t result = H5Tget_class(type);
-        H5Tclose(type);
-        return result;
-    }
+    H5T_class_t type() const { return of_type(H5Tget_class); }
     std::size_t rows() const {
         const hid_t space = H5Dget_space(set_);
         const auto rows = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
@@ -49,18 +54,8 @@ public:
         return values;
     }
     /// Number of bytes of each text; 0 if texts have variable length.
-    std::size_t width() const {
-        const hid_t type = H5Dget_type(set_);
-        const std::size_t width = H5Tis_variable_str(type) > 0 ? 0 : H5Tget_size(type);
-        H5Tclose(type);
-        return width;
-    }
-    H5T_cset_t letters() const {
-        const hid_t type = H5Dget_type(set_);
-        const H5T_cset_t letters = H5Tget_cset(type);
-        H5Tclose(type);
-        return letters;
-    }
+    std::size_t width() const { return of_type(H5Tis_variable_str) > 0 ? 0 : of_type(H5Tget_size); }
+    H5T_cset_t letters() const { return of_type(H5Tget_cset); }
     std::vector<std::string> texts() const {
         const hid_t type = H5Dget_type(set_);
         std::vector<std::string> texts;
@@ -109,36 +104,19 @@ private:
     hid_t file_, set_;
 };
 
-/// Makes a separate folder for each test.
 class Hdf5 : public ::testing::Test {
 protected:
-    void SetUp() override { std::filesystem::create_directories(folder_); }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-    std::string path(const char* name) const { return (folder_ / name).string(); }
+    std::string path(const char* name) const { return folder_ / name; }
 
-    std::filesystem::path folder_ = std::filesystem::temp_directory_path() / ("graze-hdf5-" + std::to_string(getpid()));
+    testing::TemporaryFolder folder_;
 };
-
-/// A run of a model without any results.
-RunRecord run_of(const Model& model, const char* name, const char* kind) {
-    RunRecord run;
-    run.name = name;
-    run.kind = kind;
-    run.model_name = model.name;
-    run.model = write_model(model);
-    for (const auto& symbol : model.parameter_symbols())
-        run.coordinates.push_back({symbol.name(), ""});
-    for (const State& state : model.states)
-        run.states.push_back({state.name, ""});
-    return run;
-}
 
 /// Writes a run of the linear impact oscillator with copies of one orbit, each changed by a function of its number.
 void write_branch(
     const std::string& path, std::size_t orbits = 1,
     const std::function<void(OrbitRecord&, std::size_t)>& change = [](OrbitRecord&, std::size_t) {}) {
     const Model model = load_model("impact-oscillator");
-    RunRecord run = run_of(model, "b", "continue");
+    RunRecord run = testing::run_of(model, "b", "continue");
     run.values = {{"period", ""}, {"speed", "m/s"}};
     OrbitRecord record;
     record.part = "up";
@@ -193,13 +171,8 @@ TEST_F(Hdf5, BranchesHaveOrbitsSegmentsAndMultipliers) {
 
 TEST_F(Hdf5, EstimatesHaveUnitsAndCovariances) {
     {
-        const Model model = load_model("impact-oscillator");
-        RunRecord run = run_of(model, "found", "identify");
-        run.directions = {""};
-        for (const Mode& mode : model.modes)
-            run.modes.push_back(mode.name);
         ResultFile file(path("results.sqlite"), ResultFile::Access::write);
-        file.begin_run(run);
+        file.begin_run(testing::run_of(load_model("impact-oscillator"), "found", "identify"));
         file.set_estimates("found",
                            {{{"w0", "rad/s", {95.94, 0.01, 57}, ""}, {"zeta", "", {0.016, 0, 0}, "not determined"}},
                             {1e-4, -2e-9, -2e-9, 4e-8}});

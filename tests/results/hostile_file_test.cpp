@@ -1,15 +1,15 @@
 // Result files and queries from untrusted sources.
 
 #include "graze/base/input_error.hpp"
-#include "graze/results/result_file.hpp"
+
+#include "base/temporary_folder.hpp"
+#include "run_of_model.hpp"
 
 #include <gtest/gtest.h>
-#include <sqlite3.h>
 #include <sys/stat.h>
 
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <random>
 #include <string>
 
@@ -30,28 +30,15 @@ rates = { x = "v", v = "-x" }
 class HostileFile : public ::testing::Test {
 protected:
     HostileFile() {
-        std::string name = (std::filesystem::temp_directory_path() / "graze-hostile-XXXXXX").string();
-        folder = mkdtemp(name.data());
-        path = folder / "results.sqlite";
         write();
-        std::ifstream stream(path, std::ios::binary);
-        image = {std::istreambuf_iterator<char>(stream), {}};
+        image = testing::contents(path);
     }
-    ~HostileFile() override { std::filesystem::remove_all(folder); }
-
     static RunRecord run_named(const std::string& name) {
-        RunRecord run;
-        run.name = name;
-        run.kind = "basin";
-        run.model_name = "oscillator";
-        run.model = oscillator;
+        RunRecord run = testing::run_of(parse_model(oscillator, "oscillator"), name, "basin");
         run.settings = "{}";
         run.coordinates = {{"x", "m"}};
-        run.states = {{"x", "m"}, {"v", ""}};
         run.values = {{"v", ""}};
         run.samplings = {"s"};
-        run.modes = {"only"};
-        run.directions = {""};
         run.points = 20;
         return run;
     }
@@ -79,13 +66,9 @@ protected:
     /// Creates the file again, and changes it by SQL statements of another program.
     void tamper(const std::string& sql) const {
         restore(image);
-        sqlite3* database = nullptr;
-        ASSERT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);
-        char* message = nullptr;
-        EXPECT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, &message), SQLITE_OK) << message << ": " << sql;
-        sqlite3_close(database);
+        testing::change(path, sql);
     }
-    void restore(const std::string& bytes) const { std::ofstream(path, std::ios::binary) << bytes; }
+    void restore(const std::string& bytes) const { folder.write("results.sqlite", bytes); }
 
     /// Reads everything that the program reads of a file. @return the message if it is refused by an InputError
     std::string refusal() const {
@@ -118,8 +101,8 @@ protected:
         return message;
     }
 
-    std::filesystem::path folder;
-    std::string path, image;
+    testing::TemporaryFolder folder;
+    std::string path = folder / "results.sqlite", image;
 };
 
 TEST_F(HostileFile, QueriesOnlyRead) {
@@ -160,13 +143,7 @@ TEST_F(HostileFile, QueriesOnlyRead) {
                                       "SELECT writefile('/tmp/x', 'x')",
                                       "SELECT zeroblob(1000000000)",
                                       "SELECT * FROM fts3tokenize"})
-            EXPECT_THROW(
-                {
-                    auto rows = file.query(sql);
-                    rows.next();
-                },
-                InputError)
-                << sql;
+            EXPECT_THROW(file.query(sql).next(), InputError) << sql;
         EXPECT_THROW(file.query(std::string("SELECT 1\0; DELETE FROM points_r", 31)), InputError);
         for (const std::string sql :
              {"SELECT 1", "SELECT 1;", " SELECT 1 ; -- that is all", "SELECT 1;; /* all */ ;\n",
@@ -273,7 +250,7 @@ TEST_F(HostileFile, OnlyPlainFilesAreOpened) {
     const std::string pipe = folder / "pipe", link = folder / "link";
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
     std::filesystem::create_symlink(path, link);
-    for (const std::string& name : {pipe, std::string("/dev/zero"), folder.string()})
+    for (const std::string& name : {pipe, std::string("/dev/zero"), folder.path()})
         EXPECT_THROW(ResultFile(name, ResultFile::Access::read), InputError) << name;
     EXPECT_NO_THROW(ResultFile(link, ResultFile::Access::read));
     EXPECT_THROW(ResultFile(link, ResultFile::Access::write), InputError);
@@ -289,7 +266,7 @@ TEST_F(HostileFile, RemovalWhileWritingIsDetected) {
         file.add_point("r", point_numbered(0));
         std::filesystem::remove(path);
         if (replaced)
-            std::ofstream(path) << "something else";
+            restore("something else");
         EXPECT_THROW(
             {
                 file.add_point("r", point_numbered(1));

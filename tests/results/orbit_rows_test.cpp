@@ -1,16 +1,13 @@
 #include "graze/model/catalogue.hpp"
-#include "graze/model/model_file.hpp"
-#include "graze/results/hdf5.hpp"
-#include "graze/results/result_file.hpp"
 #include "graze/results/stored_run.hpp"
 
+#include "base/temporary_folder.hpp"
+#include "run_of_model.hpp"
+
 #include <gtest/gtest.h>
-#include <sqlite3.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <random>
 
@@ -21,25 +18,12 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class OrbitRows : public ::testing::Test {
 protected:
-    void SetUp() override {
-        path_ =
-            (std::filesystem::temp_directory_path() / ("graze-rows-" + std::to_string(getpid()) + ".sqlite")).string();
-        std::filesystem::remove(path_);
-    }
-    void TearDown() override { std::filesystem::remove(path_); }
-    std::string path_;
+    testing::TemporaryFolder folder_;
+    const std::string path_ = folder_ / "results.sqlite";
 };
 
 RunRecord run_of(const Model& model) {
-    RunRecord run;
-    run.name = "b";
-    run.kind = "continue";
-    run.model_name = model.name;
-    run.model = write_model(model);
-    for (const auto& symbol : model.parameter_symbols())
-        run.coordinates.push_back({symbol.name(), ""});
-    for (const State& state : model.states)
-        run.states.push_back({state.name, ""});
+    RunRecord run = testing::run_of(model, "b", "continue");
     run.values = {{"largest", ""}};
     return run;
 }
@@ -113,21 +97,7 @@ TEST_F(OrbitRows, KeepInfiniteAndUndefinedNumbers) {
         EXPECT_EQ(written[i].point.monitors, read[i].point.monitors);
         EXPECT_EQ(a.certificate.guard_margins, b.certificate.guard_margins);
         EXPECT_EQ(a.certificate.approach_speeds, b.certificate.approach_speeds);
-        ASSERT_EQ(a.certificate.minima.size(), b.certificate.minima.size());
-        for (std::size_t m = 0; m < a.certificate.minima.size(); ++m) {
-            EXPECT_EQ(a.certificate.minima[m].segment, b.certificate.minima[m].segment);
-            EXPECT_EQ(a.certificate.minima[m].event, b.certificate.minima[m].event);
-            EXPECT_EQ(a.certificate.minima[m].time, b.certificate.minima[m].time);
-            EXPECT_EQ(a.certificate.minima[m].value, b.certificate.minima[m].value);
-            EXPECT_EQ(a.certificate.minima[m].size, b.certificate.minima[m].size);
-        }
-        ASSERT_EQ(a.certificate.end_values.size(), b.certificate.end_values.size());
-        for (std::size_t m = 0; m < a.certificate.end_values.size(); ++m) {
-            EXPECT_EQ(a.certificate.end_values[m].segment, b.certificate.end_values[m].segment);
-            EXPECT_EQ(a.certificate.end_values[m].event, b.certificate.end_values[m].event);
-            EXPECT_EQ(a.certificate.end_values[m].value, b.certificate.end_values[m].value);
-            EXPECT_EQ(a.certificate.end_values[m].rate, b.certificate.end_values[m].rate);
-        }
+        EXPECT_EQ(testing::details_of(written[i].point), testing::details_of(read[i].point));
     }
     auto infinite = file.query("SELECT count(*) FROM multipliers WHERE real > 1e308");
     ASSERT_TRUE(infinite.next());
@@ -187,16 +157,8 @@ TEST_F(OrbitRows, EarlierFilesAreReadAndContinued) {
         file.begin_run(run_of(model));
         file.add_orbit("b", lost);
     }
-    sqlite3* database = nullptr;
-    ASSERT_EQ(sqlite3_open(path_.c_str(), &database), SQLITE_OK);
-    char* message = nullptr;
-    EXPECT_EQ(sqlite3_exec(database,
-                           "ALTER TABLE branch_b RENAME COLUMN touch_speed_factor TO touch_first_speed; "
-                           "PRAGMA user_version = 6",
-                           nullptr, nullptr, &message),
-              SQLITE_OK)
-        << message;
-    sqlite3_close(database);
+    testing::change(path_, "ALTER TABLE branch_b RENAME COLUMN touch_speed_factor TO touch_first_speed; "
+                           "PRAGMA user_version = 6");
     EXPECT_EQ(ResultFile(path_, ResultFile::Access::read).orbit("b", std::size_t{0})->touch, lost.touch);
     ResultFile file(path_, ResultFile::Access::write);
     EXPECT_EQ(file.format(), 6);

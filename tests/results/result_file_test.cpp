@@ -3,11 +3,12 @@
 #include "graze/base/input_error.hpp"
 #include "results/schema.hpp"
 
+#include "base/temporary_folder.hpp"
+#include "run_of_model.hpp"
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sqlite3.h>
-
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -19,6 +20,7 @@
 #include <fstream>
 #include <random>
 #include <thread>
+#include <tuple>
 
 namespace graze {
 namespace {
@@ -27,17 +29,9 @@ using ::testing::HasSubstr;
 
 class ResultFileTest : public ::testing::Test {
 protected:
-    void SetUp() override {
-        folder_ =
-            std::filesystem::temp_directory_path() / ("graze-results-" + std::to_string(getpid()) + "-" +
-                                                      ::testing::UnitTest::GetInstance()->current_test_info()->name());
-        std::filesystem::remove_all(folder_);
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-    std::string path(const std::string& name = "results.sqlite") const { return (folder_ / name).string(); }
+    std::string path(const std::string& name = "results.sqlite") const { return folder_ / name; }
 
-    std::filesystem::path folder_;
+    testing::TemporaryFolder folder_;
 };
 
 RunRecord run_named(const std::string& name) {
@@ -90,31 +84,13 @@ PointRecord point_numbered(std::size_t number) {
     return point;
 }
 
-void expect_equal(const PointRecord& a, const PointRecord& b) {
-    EXPECT_EQ(a.number, b.number);
-    EXPECT_EQ(a.chain, b.chain);
-    EXPECT_EQ(a.direction, b.direction);
-    EXPECT_EQ(a.coordinates, b.coordinates);
-    EXPECT_EQ(a.result.label, b.result.label);
-    EXPECT_EQ(a.result.period, b.result.period);
-    EXPECT_EQ(a.result.duration, b.result.duration);
-    EXPECT_EQ(a.result.signature, b.result.signature);
-    EXPECT_EQ(a.result.symmetric, b.result.symmetric);
-    EXPECT_EQ(a.result.multipliers, b.result.multipliers);
-    EXPECT_EQ(a.result.residual, b.result.residual);
-    EXPECT_EQ(a.result.lyapunov, b.result.lyapunov);
-    EXPECT_EQ(a.result.lyapunov_error, b.result.lyapunov_error);
-    EXPECT_EQ(a.result.cycles, b.result.cycles);
-    EXPECT_EQ(a.result.periods_run, b.result.periods_run);
-    EXPECT_EQ(a.result.time, b.result.time);
-    EXPECT_EQ(a.result.state, b.result.state);
-    EXPECT_EQ(a.result.mode, b.result.mode);
-    EXPECT_EQ(a.result.outcome.ending, b.result.outcome.ending);
-    EXPECT_EQ(a.result.outcome.time, b.result.outcome.time);
-    EXPECT_EQ(a.result.outcome.detail, b.result.outcome.detail);
-    EXPECT_EQ(a.result.samples.samplings, b.result.samples.samplings);
-    EXPECT_EQ(a.result.samples.times, b.result.samples.times);
-    EXPECT_EQ(a.result.samples.values, b.result.samples.values);
+/// All that is stored of a point.
+auto contents_of(const PointRecord& point) {
+    const PointResult& r = point.result;
+    return std::tuple(point.number, point.chain, point.direction, point.coordinates, r.label, r.period, r.duration,
+                      r.signature, r.symmetric, r.multipliers, r.residual, r.lyapunov, r.lyapunov_error, r.cycles,
+                      r.periods_run, r.time, r.state, r.mode, r.outcome.ending, r.outcome.time, r.outcome.detail,
+                      r.samples.samplings, r.samples.times, r.samples.values);
 }
 
 TEST_F(ResultFileTest, OrdersRunsAsNamed) {
@@ -171,7 +147,7 @@ TEST_F(ResultFileTest, ReadsRunsAndPointsAsWritten) {
     EXPECT_EQ(run->points, 100u);
     EXPECT_EQ(file.point_count(run->name), 4u);
     for (const std::size_t number : {0, 1, 7, 12})
-        expect_equal(*file.point(run->name, number), point_numbered(number));
+        EXPECT_EQ(contents_of(*file.point(run->name, number)), contents_of(point_numbered(number)));
     EXPECT_FALSE(file.point(run->name, 2));
     // The folder contains only the file and its lock.
     EXPECT_FALSE(std::filesystem::exists(path() + "-wal"));
@@ -267,10 +243,7 @@ TEST_F(ResultFileTest, RefusesUnreadableFiles) {
     EXPECT_FALSE(std::filesystem::exists(":memory:.lock"));
     EXPECT_THAT(refusal(path("none/results.sqlite"), ResultFile::Access::write), HasSubstr("cannot be written"));
     { ResultFile file(path(), ResultFile::Access::write); }
-    sqlite3* database = nullptr;
-    ASSERT_EQ(sqlite3_open(path().c_str(), &database), SQLITE_OK);
-    sqlite3_exec(database, "PRAGMA user_version = 99; DELETE FROM meta", nullptr, nullptr, nullptr);
-    sqlite3_close(database);
+    testing::change(path(), "PRAGMA user_version = 99; DELETE FROM meta");
     for (const auto access : {ResultFile::Access::read, ResultFile::Access::write})
         EXPECT_THAT(refusal(path(), access),
                     HasSubstr(fmt::format("format 99, this version of graze knows formats {} to {}",
@@ -319,7 +292,7 @@ TEST_F(ResultFileTest, AFullDiskIsReportedAndLosesNothing) {
     ResultFile file(path(), ResultFile::Access::write);
     EXPECT_GE(file.point_count("r"), 10u);
     for (std::size_t number = 0; number < 10; ++number)
-        expect_equal(*file.point("r", number), point_numbered(number));
+        EXPECT_EQ(contents_of(*file.point("r", number)), contents_of(point_numbered(number)));
 }
 
 TEST_F(ResultFileTest, KilledWritersLeaveCompletePoints) {
@@ -352,8 +325,9 @@ TEST_F(ResultFileTest, KilledWritersLeaveCompletePoints) {
         const ResultFile file(path(), ResultFile::Access::read);
         const std::size_t count = file.point_count("r");
         ASSERT_GE(count, before);
-        if (count > 0)
-            expect_equal(*file.point("r", count - 1), point_numbered(count - 1));
+        if (count > 0) {
+            EXPECT_EQ(contents_of(*file.point("r", count - 1)), contents_of(point_numbered(count - 1)));
+        }
         auto rows = file.query("SELECT count(*), (SELECT count(*) FROM multipliers) FROM samples_r");
         ASSERT_TRUE(rows.next());
         ASSERT_EQ(rows.integer(0), static_cast<std::int64_t>(6 * count));

@@ -1,18 +1,16 @@
-#include "graze/base/input_error.hpp"
 #include "graze/model/catalogue.hpp"
-#include "graze/study/runner.hpp"
 
-#include "refusal.hpp"
+#include "branch/maps.hpp"
+#include "results/run_of_model.hpp"
+#include "study_of_every_kind.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
-#include <tuple>
 
 namespace graze {
 namespace {
@@ -20,15 +18,15 @@ namespace {
 using ::testing::HasSubstr;
 
 /// Without damping worth mentioning, grazing is where 1/(omega^2 - 1) is the gap; here with the damping.
-const std::string study_text = R"(
+const std::string rest_text = R"(
 name = "s"
 model = "impact-oscillator"
-
 [runs.rest]
 kind = "orbit"
 set = { omega = 4 }
 from = { x = -0.07 }
-
+)";
+const std::string study_text = rest_text + R"(
 [runs.free]
 kind = "continue"
 start = { run = "rest" }
@@ -63,29 +61,7 @@ set = { omega = 2.3 }
 vary = { e = [0.78, 0.8] }
 )";
 
-class BranchRun : public ::testing::Test {
-protected:
-    void SetUp() override {
-        folder_ =
-            std::filesystem::temp_directory_path() / ("graze-branch-" + std::to_string(getpid()) + "-" +
-                                                      ::testing::UnitTest::GetInstance()->current_test_info()->name());
-        std::filesystem::create_directories(folder_);
-        path_ = (folder_ / "results.sqlite").string();
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
-    std::vector<RunReport> run(const std::string& text, const RunnerOptions& options = {}) {
-        ResultFile file(path_, ResultFile::Access::write);
-        return run_study(parse_study(text, "s.toml"), file, options);
-    }
-    /// What is wrong with a study, or with the first run that failed.
-    std::string refusal(const std::string& text) {
-        return refusal_of([&] { return run(text); });
-    }
-
-    std::filesystem::path folder_;
-    std::string path_;
-};
+using BranchRun = testing::StudyFixture;
 
 TEST_F(BranchRun, TellsWhatBecomesOfTouchesAndFollowsTheBoundaryBetweenVerdicts) {
     const std::string text = R"(
@@ -111,8 +87,7 @@ start = { run = "touches", point = "VS1" }
 along = { zeta = [0.01, 0.5], omega = [0.1, 3] }
 free = { amplitude = [0, 100] }
 )";
-    for (const RunReport& report : run(text))
-        EXPECT_EQ(report.problem, "");
+    testing::expect_complete(run(text));
     const ResultFile file(path_, ResultFile::Access::read);
     const double own = std::sqrt(1 - 0.05 * 0.05);
     // The projection after one cycle of the free oscillator: an impact takes (1 + e) from the speed, e = 0.8.
@@ -237,32 +212,10 @@ TEST_F(BranchRun, CurvesAreChosenWhereSeveralMeet) {
 
 TEST_F(BranchRun, CurvesGoOnFromResonances) {
     // Henon's map x -> y, y -> a - b x - y^2: folds a = -(1 + b)^2/4, and b = 1 along the torus points.
-    const std::string model = (folder_ / "henon.toml").string();
-    std::ofstream(model) << R"([parameters]
-a = 0.3
-b = 0.3
-[states]
-x = 0.2
-y = 0.2
-clock = 0
-[modes.rest]
-rates = { x = 0, y = 0, clock = 1 }
-watch = ["tick"]
-[events.tick]
-function = "1 - clock"
-[jumps.map]
-x = "y"
-y = "a - b*x - y^2"
-clock = 0
-[[transitions]]
-mode = "rest"
-event = "tick"
-jump = "map"
-next = "rest"
-label = "map"
-[initial]
-mode = "rest"
-)";
+    Model henon = testing::map_model("a = 0.3\nb = 0.3", {"y", "a - b*x - y^2"});
+    for (const char* state : {"x", "y"})
+        henon.set_initial(state, 0.2);
+    const std::string model = folder_.write("henon.toml", write_model(henon));
     const auto study = [&](const std::string& last) {
         return "name = \"s\"\nmodel = \"" + model + R"("
 [runs.fixed]
@@ -281,8 +234,7 @@ direction = "up"
 start = { run = "folds", point = "R1-1")" +
                last + " }\nalong = { a = [-2, 5], b = [0.1, 1.5] }\n";
     };
-    for (const RunReport& report : run(study(", onto = \"NS\"")))
-        EXPECT_EQ(report.problem, "") << report.name;
+    testing::expect_complete(run(study(", onto = \"NS\"")));
     {
         const ResultFile file(path_, ResultFile::Access::read);
         const auto orbits = file.orbits("last", false);
@@ -303,8 +255,7 @@ start = { run = "folds", point = "R1-1")" +
 }
 
 TEST_F(BranchRun, FollowsSpecialPointsInTwoParameters) {
-    for (const RunReport& report : run(curves_text))
-        EXPECT_EQ(report.problem, "") << report.name;
+    testing::expect_complete(run(curves_text));
     const ResultFile file(path_, ResultFile::Access::read);
     const auto run_of = file.find_run("touches");
     ASSERT_TRUE(run_of);
@@ -366,32 +317,8 @@ TEST_F(BranchRun, OrbitsAreReadAsTheyWereWritten) {
     ASSERT_EQ(read.size(), all.size());
     std::size_t details = 0;
     for (std::size_t i = 0; i < read.size(); ++i) {
-        const SpecialPoint &a = all[i].point, &b = read[i].point;
-        EXPECT_EQ(all[i].label, read[i].label);
-        EXPECT_EQ(all[i].stable, read[i].stable);
-        EXPECT_EQ(a.type, b.type);
-        EXPECT_EQ(a.detail, b.detail);
-        EXPECT_EQ(a.parameter, b.parameter);
-        EXPECT_EQ(a.tangent, b.tangent);
-        EXPECT_EQ(a.monitors, b.monitors);
-        EXPECT_EQ(a.solution.multipliers, b.solution.multipliers);
-        EXPECT_EQ(a.solution.orbit.signature, b.solution.orbit.signature);
-        EXPECT_EQ(a.solution.orbit.parameters, b.solution.orbit.parameters);
-        EXPECT_EQ(a.solution.orbit.starts, b.solution.orbit.starts);
-        EXPECT_EQ(a.solution.orbit.durations, b.solution.orbit.durations);
-        EXPECT_EQ(a.solution.certificate.approach_speeds, b.solution.certificate.approach_speeds);
-        EXPECT_EQ(a.solution.certificate.admissible, b.solution.certificate.admissible);
-        EXPECT_EQ(a.solution.half_multipliers, b.solution.half_multipliers);
-        const auto minima = [](const SpecialPoint& point) {
-            std::vector<std::tuple<std::size_t, std::size_t, double, double>> rows;
-            for (const OrbitMinimum& one : point.solution.certificate.minima)
-                rows.emplace_back(one.segment, one.event, one.time, one.value);
-            for (const EndValue& one : point.solution.certificate.end_values)
-                rows.emplace_back(one.segment, one.event, one.value, one.rate);
-            return rows;
-        };
-        EXPECT_EQ(minima(a), minima(b));
-        details += minima(a).size();
+        EXPECT_TRUE(testing::contents_of(all[i]) == testing::contents_of(read[i])) << i;
+        details += testing::details_of(all[i].point).size();
     }
     EXPECT_GT(details, 10u);
     EXPECT_EQ(file.orbits("impacting", true).size(),
@@ -433,7 +360,7 @@ TEST_F(BranchRun, IsComputedOnceAndBeginsAgainWhenInterrupted) {
 TEST_F(BranchRun, StoresOrbitsThatWereNotFound) {
     std::ofstream(folder_ / "far.csv") << "segment,t,x,v,theta\n1,0,0.1,-100,0\n1,0.01,0.1,1.2,6.28\n";
     const std::string text = "name = \"s\"\nmodel = \"impact-oscillator\"\n[runs.a]\nkind = \"orbit\"\ntable = \"" +
-                             (folder_ / "far.csv").string() + "\"\nsignature = \"impact\"\n";
+                             folder_ / "far.csv" + "\"\nsignature = \"impact\"\n";
     for (int again = 0; again < 2; ++again) // also when it is found in the file
         EXPECT_EQ(run(text).front().outcome, RunOutcome::failed);
     {
@@ -457,7 +384,7 @@ TEST_F(BranchRun, AnOrbitNeedsNoParameter) {
     std::ofstream(folder_ / "free.toml") << "name = \"free\"\n[states]\nx = 2\ny = 0\n[modes.only]\n"
                                             "rates = { x = \"y\", y = \"(1 - x^2)*y - x\" }\n"
                                             "[sections.top]\nfunction = \"y\"\ndirection = \"falling\"\n";
-    const std::string head = "name = \"s\"\nmodel = \"" + (folder_ / "free.toml").string() + "\"\n[runs.a]\n";
+    const std::string head = "name = \"s\"\nmodel = \"" + folder_ / "free.toml" + "\"\n[runs.a]\n";
     EXPECT_EQ(run(head + "kind = \"orbit\"\nsection = \"top\"\n").front().outcome, RunOutcome::complete);
     const ResultFile file(path_, ResultFile::Access::read);
     const auto record = file.orbit("a", std::size_t{0});
@@ -468,8 +395,8 @@ TEST_F(BranchRun, AnOrbitNeedsNoParameter) {
 
 /// A branch that has one orbit only, because it cannot go on from that, is no result to be content with.
 TEST_F(BranchRun, FailsWhereItDoesNotLeaveItsFirstOrbit) {
-    const std::string rest = "name = \"s\"\nmodel = \"impact-oscillator\"\n[runs.rest]\nkind = \"orbit\"\n"
-                             "set = { omega = 4 }\nfrom = { x = -0.07 }\n[runs.a]\nkind = \"continue\"\n"
+    const std::string rest = rest_text +
+                             "[runs.a]\nkind = \"continue\"\n"
                              "start = { run = \"rest\" }\nalong = { omega = [3.9, 4] }\ndirection = \"up\"\n";
     for (int again = 0; again < 2; ++again) { // also when it is found in the file
         const auto reports = run(rest);
@@ -574,14 +501,7 @@ values = ["omega", "e", "zeta", "x"]
 }
 
 TEST_F(BranchRun, MultipliersAreReportedAndBounded) {
-    const std::string head = R"(
-name = "s"
-model = "impact-oscillator"
-[runs.rest]
-kind = "orbit"
-set = { omega = 4 }
-from = { x = -0.07 }
-monitors = { largest = { multiplier = 1 }, next = { multiplier = 2 } }
+    const std::string head = rest_text + R"(monitors = { largest = { multiplier = 1 }, next = { multiplier = 2 } }
 [runs.free]
 kind = "continue"
 start = { run = "rest" }
@@ -609,13 +529,7 @@ direction = "down"
 
 /// The orbit from which a branch is followed both ways is listed once, and images of other points are said to be such.
 TEST_F(BranchRun, ListsEachSpecialPointOnce) {
-    run(R"(
-name = "s"
-model = "impact-oscillator"
-[runs.rest]
-kind = "orbit"
-set = { omega = 4 }
-from = { x = -0.07 }
+    run(rest_text + R"(
 [runs.free]
 kind = "continue"
 start = { run = "rest" }
@@ -676,24 +590,11 @@ TEST_F(BranchRun, FollowsSymmetricOrbitsByTheirHalfWhereverTheyComeFrom) {
     // The same as a table of the whole orbit.
     const Model model = load_model("impact-oscillator-two-stops");
     const Orbit whole = whole_orbit(System(model), asked->point.solution.orbit);
-    std::ofstream table(folder_ / "whole.csv");
-    table.precision(12);
-    table << "segment,t,x,v,theta,end\n";
-    double time = 0;
-    for (std::size_t k = 0; k < whole.segments(); ++k) {
-        const auto row = [&] {
-            table << k + 1 << ',' << time << ',' << whole.starts[k][0] << ',' << whole.starts[k][1] << ','
-                  << whole.starts[k][2] << ',' << end_name(model, whole.signature[k]) << '\n';
-        };
-        row();
-        time += whole.durations[k];
-        row();
-    }
-    table.close();
+    folder_.write("whole.csv", testing::table_of(model, whole));
     const std::string tabled = head +
                                "[runs.tabled]\nkind = \"continue\"\nalong = { omega = [1.1, 1.3] }\nsteps = 3\n"
                                "table = \"" +
-                               (folder_ / "whole.csv").string() + "\"\n";
+                               folder_ / "whole.csv" + "\"\n";
     run(tabled);
     const ResultFile again(path_, ResultFile::Access::read);
     EXPECT_TRUE(again.orbit("tabled", std::size_t{0})->point.solution.orbit.symmetry);

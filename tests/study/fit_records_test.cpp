@@ -2,6 +2,8 @@
 
 #include "graze/model/model_file.hpp"
 
+#include "study_fixture.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -44,12 +46,7 @@ KeptRecord record(const std::string& channel, const std::string& unit, double fa
 }
 
 std::string refusal(const StudyRun& run, const std::vector<KeptRecord>& records) {
-    try {
-        fit_records(run, records);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return testing::refusal_of([&] { fit_records(run, records); });
 }
 
 TEST(FitRecords, RecordsNeedNotHaveTheSameChannels) {

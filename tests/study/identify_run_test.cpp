@@ -4,13 +4,10 @@
 #include "graze/identify/coupling.hpp"
 #include "graze/identify/fit.hpp"
 #include "graze/model/catalogue.hpp"
-#include "graze/results/result_file.hpp"
 #include "graze/results/stored_run.hpp"
-#include "graze/study/runner.hpp"
 #include "graze/study/stored_study.hpp"
-#include "graze/study/study.hpp"
 
-#include "../base/temporary_folder.hpp"
+#include "study_fixture.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -27,16 +24,17 @@ using ::testing::HasSubstr;
 
 constexpr double w0 = 95.94, zeta = 0.016, mass = 0.6462, gap = 4.8e-3, beta1 = 1.9e-5, beta2 = 1.6e-3;
 
-class IdentifyRunTest : public ::testing::Test {
+class IdentifyRunTest : public testing::StudyFixture {
 protected:
     /// The velocity of an oscillator that is let go.
-    void write_release(const std::string& name) const {
-        std::string text = "t [s], v [m/s]\n";
+    /// @param time, speed units in the file of a millisecond and of 1 m/s
+    void write_release(const std::string& name, const std::string& head = "t [s], v [m/s]", double time = 1e-3,
+                       double speed = 1) const {
+        std::string text = head + '\n';
         const double wd = w0 * std::sqrt(1 - zeta * zeta);
-        for (int i = 0; i < 1500; ++i) {
-            const double t = i / 1000.0;
-            text += fmt::format("{:.17g},{:.17g}\n", t, 0.07 * std::exp(-zeta * w0 * t) * std::sin(wd * t));
-        }
+        for (int i = 0; i < 1500; ++i)
+            text += fmt::format("{:.17g},{:.17g}\n", time * i,
+                                speed * 0.07 * std::exp(-zeta * w0 * i * 1e-3) * std::sin(wd * i * 1e-3));
         folder_.write(name, text);
     }
     /// Equilibria, with displacements that are off by an alternating part of themselves.
@@ -52,31 +50,14 @@ protected:
         folder_.write(name, text);
         return loads;
     }
-    std::vector<RunReport> run(const std::string& text, const RunnerOptions& options = {}) const {
-        const Study study = read_study(folder_.write("s.toml", text));
-        ResultFile file(folder_ / "results.sqlite", ResultFile::Access::write);
-        return run_study(study, file, options);
-    }
-    std::string refusal(const std::string& text) const {
-        try {
-            for (const RunReport& report : run(text))
-                if (report.outcome == RunOutcome::failed)
-                    return report.problem + "; " + report.remedy;
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
-    }
     EstimateRecord estimate(const std::string& of, const std::string& name) const {
-        const ResultFile file(folder_ / "results.sqlite", ResultFile::Access::read);
+        const ResultFile file(path_, ResultFile::Access::read);
         for (const EstimateRecord& number : file.estimates(of).numbers)
             if (number.name == name)
                 return number;
         ADD_FAILURE() << "no " << name;
         return {};
     }
-
-    testing::TemporaryFolder folder_;
 };
 
 const char* const head = R"(name = "s"
@@ -108,9 +89,7 @@ TEST_F(IdentifyRunTest, DecrementAndCouplingFindWhatTheRecordsWereMadeWith) {
     for (const char* name : {"r1.csv", "r2.csv", "r3.csv"})
         write_release(name);
     const auto loads = write_loads("loads.csv");
-    const auto reports = run(std::string(head) + loads_text);
-    for (const RunReport& report : reports)
-        EXPECT_TRUE(report.complete()) << report.name << ": " << report.problem;
+    testing::expect_complete(run(std::string(head) + loads_text));
     // Peaks by polynomials through some of 65 samples a period: six digits.
     EXPECT_NEAR(estimate("decay", "w0").estimate.value, w0, 1e-5 * w0);
     EXPECT_NEAR(estimate("decay", "zeta").estimate.value, zeta, 1e-3 * zeta);
@@ -128,7 +107,7 @@ TEST_F(IdentifyRunTest, DecrementAndCouplingFindWhatTheRecordsWereMadeWith) {
         EXPECT_NEAR(one.error, value.error, 1e-6 * value.error) << name;
     }
     EXPECT_NEAR(estimate("coupling", "beta1").estimate.value, beta1, 0.02 * beta1); // displacements are off by 1e-3
-    const ResultFile file(folder_ / "results.sqlite", ResultFile::Access::read);
+    const ResultFile file(path_, ResultFile::Access::read);
     const EstimateRecords both = file.estimates("coupling");
     const std::size_t count = both.numbers.size();
     ASSERT_EQ(both.covariance.size(), count * count);
@@ -139,10 +118,8 @@ TEST_F(IdentifyRunTest, DecrementAndCouplingFindWhatTheRecordsWereMadeWith) {
 
 // The same release and loads as above, written in other units: the same parameters of the model come out.
 TEST_F(IdentifyRunTest, EstimatesHaveTheUnitsOfTheModel) {
-    const double wd = w0 * std::sqrt(1 - zeta * zeta);
-    std::string release = "t [ms], v [um/s]\n", loads = "n, q [m], I [mA]\n", held = "t [us], V [uV], I [MA]\n";
-    for (int i = 0; i < 1500; ++i)
-        release += fmt::format("{},{:.17g}\n", i, 7e4 * std::exp(-zeta * w0 * i * 1e-3) * std::sin(wd * i * 1e-3));
+    write_release("r1.csv", "t [ms], v [um/s]", 1, 1e6);
+    std::string loads = "n, q [m], I [mA]\n", held = "t [us], V [uV], I [MA]\n";
     for (int i = 1; i <= 12; ++i) {
         const double q = 1e-4 * i * (1 + (i % 2 == 0 ? 1e-3 : -1e-3));
         loads += fmt::format("{},{:.17g},{:.17g}\n", i, q,
@@ -154,7 +131,6 @@ TEST_F(IdentifyRunTest, EstimatesHaveTheUnitsOfTheModel) {
         const double amperes = 1.66 * std::sin(angle - std::atan2(reactance, 1.4)) / std::hypot(reactance, 1.4);
         held += fmt::format("{},{:.17g},{:.17g}\n", 1000 * i, 1.66e6 * std::sin(angle), 1e-6 * amperes);
     }
-    folder_.write("r1.csv", release);
     folder_.write("loads.csv", loads);
     folder_.write("held.csv", held);
     const std::string more = R"([runs.held]
@@ -167,8 +143,7 @@ what = "impedance"
 records = "held"
 gives = { resistance = "R", inductance = "Ll", frequency = "f" }
 )";
-    for (const RunReport& report : run(std::string(head) + loads_text + more))
-        EXPECT_TRUE(report.complete()) << report.name << ": " << report.problem;
+    testing::expect_complete(run(std::string(head) + loads_text + more));
     EXPECT_NEAR(estimate("decay", "w0").estimate.value, w0, 1e-5 * w0);
     EXPECT_EQ(estimate("decay", "w0").unit, "rad/s");
     EXPECT_NEAR(estimate("coupling", "beta1").estimate.value, beta1, 0.02 * beta1); // displacements are off by 1e-3
@@ -178,7 +153,7 @@ gives = { resistance = "R", inductance = "Ll", frequency = "f" }
     EXPECT_NEAR(estimate("coil", "Ll").estimate.value, 0.01, 1e-9);
     EXPECT_EQ(estimate("coil", "Ll").unit, "H");
     EXPECT_NEAR(estimate("coil", "f").estimate.value, 4, 1e-9);
-    const ResultFile file(folder_ / "results.sqlite", ResultFile::Access::read);
+    const ResultFile file(path_, ResultFile::Access::read);
     const EstimateRecords decay = file.estimates("decay");
     for (std::size_t i = 0; i < decay.numbers.size(); ++i)
         if (decay.numbers[i].name == "w0") {
@@ -189,13 +164,8 @@ gives = { resistance = "R", inductance = "Ll", frequency = "f" }
 
 // Minutes and words for units are known; an unknown unit beside a known one is refused.
 TEST_F(IdentifyRunTest, UsualUnitsOfTimeAreKnownAndOthersRefused) {
-    const double wd = w0 * std::sqrt(1 - zeta * zeta);
     const auto write = [&](const char* unit, double by) {
-        std::string release = fmt::format("t [{}], v [m/s]\n", unit);
-        for (int i = 0; i < 1500; ++i)
-            release += fmt::format("{:.17g},{:.17g}\n", by * i,
-                                   0.07 * std::exp(-zeta * w0 * i * 1e-3) * std::sin(wd * i * 1e-3));
-        folder_.write("r1.csv", release);
+        write_release("r1.csv", fmt::format("t [{}], v [m/s]", unit), by);
     };
     for (const auto& [unit, by] : {std::pair{"min", 1e-3 / 60}, std::pair{"h", 1e-3 / 3600}, std::pair{"msec", 1.0}}) {
         write(unit, by);
@@ -211,11 +181,7 @@ TEST_F(IdentifyRunTest, UsualUnitsOfTimeAreKnownAndOthersRefused) {
 // Two runs that keep records in other units.
 TEST_F(IdentifyRunTest, RecordsOfSeveralRunsArePutTogetherInOneUnit) {
     write_release("r1.csv");
-    std::string text = "t [ms], v [mm/s]\n";
-    const double wd = w0 * std::sqrt(1 - zeta * zeta);
-    for (int i = 0; i < 1500; ++i)
-        text += fmt::format("{},{:.17g}\n", i, 70 * std::exp(-zeta * w0 * i * 1e-3) * std::sin(wd * i * 1e-3));
-    folder_.write("other.csv", text);
+    write_release("other.csv", "t [ms], v [mm/s]", 1, 1000);
     std::string both = head;
     const std::string one = "records = \"releases\"";
     ASSERT_NE(both.find(one), std::string::npos);
@@ -275,7 +241,7 @@ time = 1
     run(text);
     const double found = estimate("decay", "w0").estimate.value;
     {
-        ResultFile file(folder_ / "results.sqlite", ResultFile::Access::write);
+        ResultFile file(path_, ResultFile::Access::write);
         const auto parameter = [&](const char* name, const char* what) {
             const Model model = stored_model(*file.find_run(name));
             return model.parameter_values()[model.independent_parameter(what).place()];
@@ -310,19 +276,13 @@ TEST_F(IdentifyRunTest, AFitIsThatOfTheLibrary) {
         text += fmt::format("{:.17g},{:.17g}\n", record.times.back(), record.readings[0].values.back());
     }
     folder_.write("swing.csv", text);
-    const auto reports = run(R"(name = "s"
-model = "./swing.toml"
-[runs.record]
-kind = "record"
-files = "swing.csv"
-[runs.fit]
-kind = "identify"
-what = "fit"
-records = "record"
-unknowns = { k = { guess = 4.2, bounds = [1, 9] } }
-readings = ["x"]
-known = ["v"]
-)");
+    const auto fitted = [&](const std::string& files, const std::string& unknowns) {
+        return run("name = \"s\"\nmodel = \"./swing.toml\"\n[runs.record]\nkind = \"record\"\nfiles = " + files +
+                   "\n[runs.fit]\nkind = \"identify\"\nwhat = \"fit\"\nrecords = \"record\"\nreadings = [\"x\"]\n"
+                   "known = [\"v\"]\nunknowns = " +
+                   unknowns + "\n");
+    };
+    const auto reports = fitted("\"swing.csv\"", "{ k = { guess = 4.2, bounds = [1, 9] } }");
     const Model model = load_model(folder_ / "swing.toml");
     task.parameters.push_back({model.independent_parameter("k"), 4.2, 1, 9});
     MeasuredOutput output;
@@ -337,19 +297,7 @@ known = ["v"]
     EXPECT_EQ(k.estimate.error, fit.numbers[0].estimate.error);
     EXPECT_NEAR(k.estimate.value, 2.1 * 2.1, 1e-3); // what is alternating tells a cosine nothing
     EXPECT_NEAR(estimate("fit", "x(0)").estimate.value, 1, 1e-3);
-    run(R"(name = "s"
-model = "./swing.toml"
-[runs.record]
-kind = "record"
-files = ["swing.csv", "swing.csv"]
-[runs.fit]
-kind = "identify"
-what = "fit"
-records = "record"
-unknowns = { k = 4.2 }
-readings = ["x"]
-known = ["v"]
-)");
+    fitted("[\"swing.csv\", \"swing.csv\"]", "{ k = 4.2 }");
     EXPECT_NEAR(estimate("fit", "x(0) of record 2").estimate.value, 1, 1e-3);
     // Alternating residuals are no noise, and the fit says so: it must not be gone on with.
     EXPECT_EQ(fit.ending == FitEnding::converged, reports.back().complete()) << reports.back().problem;
@@ -372,7 +320,7 @@ TEST_F(IdentifyRunTest, EstimatesThatMustNotBeUsedAreStored) {
     EXPECT_EQ(reports[4].outcome, RunOutcome::skipped);
     // V0/I0 cos(phi) of amplitudes 2 and 1, half a radian apart
     EXPECT_NEAR(estimate("coil", "R").estimate.value, 2 * std::cos(0.5), 1e-6);
-    const ResultFile file(folder_ / "results.sqlite", ResultFile::Access::read);
+    const ResultFile file(path_, ResultFile::Access::read);
     EXPECT_EQ(file.point_count("coil"), 1);
 }
 

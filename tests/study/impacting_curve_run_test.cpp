@@ -1,11 +1,9 @@
 // Runs of kind "curve" that go on from a touch along the folds and flips of impacting orbits that end there.
 
-#include "graze/base/input_error.hpp"
-#include "graze/study/runner.hpp"
+#include "study_fixture.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <string>
@@ -31,27 +29,15 @@ along = { omega = [1.5, 2.5], sigma = [0.001, 20] }
 direction = "both"
 )";
 
-class ImpactingCurveRun : public ::testing::Test {
+class ImpactingCurveRun : public testing::StudyFixture {
 protected:
-    void SetUp() override {
-        path_ = (std::filesystem::temp_directory_path() /
-                 ("graze-impacting-" + std::to_string(getpid()) + "-" +
-                  ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".sqlite"))
-                    .string();
-    }
-    void TearDown() override {
-        for (const char* ending : {"", "-wal", "-shm", ".lock"})
-            std::filesystem::remove(path_ + ending);
-    }
     /// The study with a curve from the joint. @param onto as it is written
     std::vector<RunReport> run(const std::string& onto) {
-        TearDown();
-        ResultFile file(path_, ResultFile::Access::write);
+        std::filesystem::remove(path_);
         const std::string curve = "[runs.curve]\nkind = \"curve\"\nstart = { run = \"touches\", point = \"VS1\"" +
                                   onto + " }\nalong = { omega = [1.5, 2.5], sigma = [0.001, 20] }\n";
-        return run_study(parse_study(touches + curve, "s.toml"), file, {});
+        return StudyFixture::run(touches + curve);
     }
-    std::string path_;
 };
 
 TEST_F(ImpactingCurveRun, FollowsFoldsAndFlipsBeyondATouch) {

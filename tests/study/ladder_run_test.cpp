@@ -1,13 +1,10 @@
-#include "graze/base/input_error.hpp"
 #include "graze/branch/ladder.hpp"
-#include "graze/study/runner.hpp"
 #include "graze/study/stored_ladder.hpp"
 
-#include "refusal.hpp"
+#include "study_fixture.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -41,27 +38,7 @@ along = { sigma = [0.1, 3] }
 rungs = 6
 )";
 
-class LadderRun : public ::testing::Test {
-protected:
-    void SetUp() override {
-        path_ = (std::filesystem::temp_directory_path() /
-                 ("graze-ladder-" + std::to_string(getpid()) + "-" +
-                  ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".sqlite"))
-                    .string();
-    }
-    void TearDown() override {
-        for (const char* ending : {"", "-wal", "-shm", ".lock"})
-            std::filesystem::remove(path_ + ending);
-    }
-    std::vector<RunReport> run(const std::string& text) {
-        ResultFile file(path_, ResultFile::Access::write);
-        return run_study(parse_study(text, "s.toml"), file, {});
-    }
-    std::string refusal(const std::string& text) {
-        return refusal_of([&] { return run(text); });
-    }
-    std::string path_;
-};
+class LadderRun : public testing::StudyFixture {};
 
 TEST_F(LadderRun, KeepsAllGrazingsAndWhereTheyLead) {
     run(free_text + ladder_text);

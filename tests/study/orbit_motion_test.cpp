@@ -6,12 +6,12 @@
 #include "graze/study/study_catalogue.hpp"
 #include "graze/symbolic/function.hpp"
 
+#include "study_fixture.hpp"
+
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <set>
 #include <utility>
@@ -96,31 +96,22 @@ struct Counts {
 Counts expect_all_closed(bool large) {
     Counts counts;
     for (const std::string& name : shipped_studies()) {
-        const Study study = load_study(name);
-        RunnerOptions options;
-        options.only = branches_alone(study, large);
-        if (options.only.empty())
+        testing::StudyResults results(load_study(name));
+        const std::vector<std::string> chosen = branches_alone(results.study, large);
+        if (chosen.empty())
             continue;
-        const std::string path =
-            (std::filesystem::temp_directory_path() / ("graze-motion-" + std::to_string(getpid()) + ".sqlite"))
-                .string();
-        std::filesystem::remove(path);
-        {
-            ResultFile file(path, ResultFile::Access::write);
-            run_study(study, file, options);
-            for (const StudyRun& run : study.runs)
-                for (const OrbitRecord& record : file.orbits(run.name, true)) {
-                    EXPECT_LT(record.point.solution.residual, 1e-6) << name << run.name << record.label;
-                    // Where contacts accumulate, what is kept ends before the last of them.
-                    const bool whole = record.point.type != PointType::chatter && run.name != "onset";
-                    if (record.point.solution.outcome != OrbitOutcome::converged || !whole)
-                        continue;
-                    expect_closed(run.model, record, name + ", " + run.name + ':' + record.label);
-                    ++counts.orbits;
-                    counts.halves += record.point.solution.orbit.symmetry ? 1 : 0;
-                }
-        }
-        std::filesystem::remove(path);
+        results.run(chosen);
+        for (const StudyRun& run : results.study.runs)
+            for (const OrbitRecord& record : results.file().orbits(run.name, true)) {
+                EXPECT_LT(record.point.solution.residual, 1e-6) << name << run.name << record.label;
+                // Where contacts accumulate, what is kept ends before the last of them.
+                const bool whole = record.point.type != PointType::chatter && run.name != "onset";
+                if (record.point.solution.outcome != OrbitOutcome::converged || !whole)
+                    continue;
+                expect_closed(run.model, record, name + ", " + run.name + ':' + record.label);
+                ++counts.orbits;
+                counts.halves += record.point.solution.orbit.symmetry ? 1 : 0;
+            }
     }
     return counts;
 }

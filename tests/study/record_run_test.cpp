@@ -2,15 +2,10 @@
 // runs that are broken off.
 
 #include "graze/model/catalogue.hpp"
-#include "graze/results/result_file.hpp"
 #include "graze/results/stored_run.hpp"
-#include "graze/study/runner.hpp"
 #include "graze/study/stored_study.hpp"
-#include "graze/study/study.hpp"
 
-#include "../base/temporary_folder.hpp"
-
-#include "refusal.hpp"
+#include "study_fixture.hpp"
 #include "wave_records.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +13,6 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include <bit>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -34,23 +28,12 @@ using testing::waves;
 constexpr double frequency = testing::wave_frequency;
 constexpr const char* head = testing::record_head;
 
-class RecordRunTest : public ::testing::Test {
+class RecordRunTest : public testing::StudyFixture {
 protected:
     std::string study_file(const std::string& text) const { return folder_.write("s.toml", text); }
-    std::string results() const { return folder_ / "results.sqlite"; }
-    /// Runs the study there is. @return reports
-    std::vector<RunReport> run(const std::string& text, const RunnerOptions& options = {}) const {
-        const Study study = read_study(study_file(text));
-        ResultFile file(results(), ResultFile::Access::write);
-        return run_study(study, file, options);
-    }
-    /// What refuses a study, or fails its last run.
-    std::string refusal(const std::string& text) const {
-        return refusal_of([&] { return run(text); });
-    }
     /// Times and values of one sampling of a point: time, values, time, ...
     std::vector<std::vector<double>> samples(const std::string& sampling, std::size_t number = 0) const {
-        const ResultFile file(results(), ResultFile::Access::read);
+        const ResultFile file(path_, ResultFile::Access::read);
         const auto stored = file.find_run("r");
         const SampleSet set = file.point("r", number)->result.samples;
         std::vector<std::vector<double>> rows;
@@ -62,23 +45,10 @@ protected:
             }
         return rows;
     }
-    /// All bits of what the runs have.
-    std::string contents(const std::string& path) const {
-        const ResultFile file(path, ResultFile::Access::read);
-        std::string all;
-        for (const RunRecord& one : file.runs())
-            for (const char* table : {"points_", "samples_"}) {
-                auto rows = file.query(fmt::format("SELECT * FROM \"{}{}\" ORDER BY rowid", table, one.name));
-                while (rows.next())
-                    for (std::size_t c = 0; c < rows.columns(); ++c)
-                        all += rows.is_text(c) || rows.is_null(c)
-                                   ? rows.text(c) + '|'
-                                   : std::to_string(std::bit_cast<std::uint64_t>(rows.number(c))) + '|';
-            }
-        return all;
+    void expect_same_bits(const std::string& other) const {
+        EXPECT_EQ(testing::bits_of(ResultFile(path_, ResultFile::Access::read)),
+                  testing::bits_of(ResultFile(other, ResultFile::Access::read)));
     }
-
-    testing::TemporaryFolder folder_;
 };
 
 TEST_F(RecordRunTest, SamplesHaveTheirClosedForm) {
@@ -99,7 +69,7 @@ size = { amplitude = true }
 )");
     // A parabola or a cubic between samples, 200 of them a period: relative errors of about (2 pi/200)^3/20.
     constexpr double interpolation = 3e-6;
-    const ResultFile file(results(), ResultFile::Access::read);
+    const ResultFile file(path_, ResultFile::Access::read);
     const PointRecord point = *file.point("r", 0);
     ASSERT_EQ(point.coordinates.size(), 1);
     EXPECT_NEAR(point.coordinates[0], 2, 1e-9); // the fit of a sine to a sine
@@ -215,7 +185,7 @@ derivative = "q"
         // A polynomial of fourth degree over some samples: its error is far below a thousandth of the slope's size.
         EXPECT_NEAR(row[3], -3e-3 * 2 * std::numbers::pi * frequency * std::sin(angle), 1e-5);
     }
-    const ResultFile file(results(), ResultFile::Access::read);
+    const ResultFile file(path_, ResultFile::Access::read);
     EXPECT_EQ(file.find_run("r")->values[1].unit, "m");
 }
 
@@ -224,7 +194,7 @@ TEST_F(RecordRunTest, OfLongRecordsSamplesAndTheHashAreStored) {
     run(std::string(head) + "files = \"a.csv\"\nreference = \"V\"\nkeep = 2000\n");
     EXPECT_TRUE(samples("record").empty());
     EXPECT_GE(samples("section").size(), 8);
-    const ResultFile file(results(), ResultFile::Access::read);
+    const ResultFile file(path_, ResultFile::Access::read);
     EXPECT_THAT(file.point("r", 0)->result.outcome.detail, HasSubstr("2001 rows, which are not kept"));
     EXPECT_THAT(file.find_run("r")->settings, HasSubstr("\"hash\":\""));
 }
@@ -237,7 +207,7 @@ TEST_F(RecordRunTest, ADiagramHasAPointForEachRecordAndADirection) {
     }
     run(std::string(head) +
         "files = { up = \"up/*.csv\", down = [\"d1.csv\", \"d2.csv\", \"d3.csv\"] }\nreference = \"V\"\n");
-    const ResultFile file(results(), ResultFile::Access::read);
+    const ResultFile file(path_, ResultFile::Access::read);
     const StoredRun stored(file, "r", {});
     std::vector<double> amplitudes;
     std::vector<std::string> directions;
@@ -311,7 +281,7 @@ TEST_F(RecordRunTest, RowsWithMissingValuesAreLeftOutAndCounted) {
     folder_.write("nan.csv", "t,V\n0,1\n1,nan\n2,3\n");
     for (const RunReport& report : run(std::string(head) + "files = \"nan.csv\"\n"))
         EXPECT_TRUE(report.complete()) << report.problem;
-    const ResultFile file(results(), ResultFile::Access::read);
+    const ResultFile file(path_, ResultFile::Access::read);
     EXPECT_THAT(file.point("r", 0)->result.outcome.detail,
                 HasSubstr("1 of 3 rows are left out, as a value is missing (the first in line 3)"));
     std::vector<double> times;
@@ -330,7 +300,7 @@ TEST_F(RecordRunTest, AnInstrumentsTextIsReadFromTheGivenLines) {
     const auto rows = samples("record");
     ASSERT_EQ(rows.size(), 50u);
     EXPECT_THAT(rows[7], ElementsAre(7, 14));
-    const ResultFile file(results(), ResultFile::Access::read);
+    const ResultFile file(path_, ResultFile::Access::read);
     const auto stored = file.find_run("r");
     ASSERT_EQ(stored->values.size(), 1u);
     EXPECT_EQ(stored->values[0].name, "q");
@@ -384,7 +354,7 @@ TEST_F(RecordRunTest, ARunIsRepeatedWhenItsRecordHasChanged) {
     // Between reading a study and doing it.
     const Study study = read_study(study_file(text + "keep = 5000\n"));
     folder_.write("a.csv", waves(3, 1));
-    ResultFile file(results(), ResultFile::Access::write);
+    ResultFile file(path_, ResultFile::Access::write);
     EXPECT_THAT(run_study(study, file, {}).front().problem, HasSubstr("has changed since"));
 }
 
@@ -393,7 +363,7 @@ TEST_F(RecordRunTest, ResultsHoldTheWholeStudy) {
     run(std::string(head) + "files = \"a.csv\"\nreference = \"V\"\nvalues = [\"twice = 2*q\"]\n");
     std::filesystem::remove(folder_ / "a.csv");
     {
-        ResultFile file(results(), ResultFile::Access::write);
+        ResultFile file(path_, ResultFile::Access::write);
         const Study study = stored_study(file);
         EXPECT_EQ(study.runs.front().kind, RunKind::record);
         const auto reports = run_study(study, file, {});
@@ -401,7 +371,7 @@ TEST_F(RecordRunTest, ResultsHoldTheWholeStudy) {
         EXPECT_EQ(reports.front().computed, 0);
     }
     // Where the records would be needed, they are asked for.
-    ResultFile source(results(), ResultFile::Access::read);
+    ResultFile source(path_, ResultFile::Access::read);
     ResultFile other(folder_ / "other.sqlite", ResultFile::Access::write);
     EXPECT_THAT(run_study(stored_study(source), other, {}).front().problem, HasSubstr("'a.csv' is not among"));
 }
@@ -410,10 +380,8 @@ TEST_F(RecordRunTest, ResultsHoldTheWholeStudy) {
 void run_in_pieces(const Study& study, const std::string& path, int questions) {
     for (int trial = 0; trial < 1000; ++trial) {
         ResultFile file(path, ResultFile::Access::write);
-        RunnerOptions options;
         int left = questions + trial; // so that it ends
-        options.interrupted = [&] { return left-- <= 0; };
-        const auto reports = run_study(study, file, options);
+        const auto reports = run_study(study, file, {.interrupted = [&] { return left-- <= 0; }});
         if (reports.size() == study.runs.size() && reports.back().complete())
             return;
     }
@@ -426,7 +394,7 @@ TEST_F(RecordRunTest, AnInterruptedRunContinuesToTheSameBits) {
     const std::string text = std::string(head) + "files = \"*.csv\"\nreference = \"V\"\n";
     run(text);
     run_in_pieces(read_study(study_file(text)), folder_ / "pieces.sqlite", 2);
-    EXPECT_EQ(contents(results()), contents(folder_ / "pieces.sqlite"));
+    expect_same_bits(folder_ / "pieces.sqlite");
 }
 
 const char* const bench = R"#(name = "s"
@@ -459,8 +427,8 @@ TEST_F(RecordRunTest, ABenchGivesTheSameRecordsWheneverItIsInterrupted) {
     ASSERT_TRUE(reports.front().complete()) << reports.front().problem;
     EXPECT_EQ(reports.front().points, 6);
     run_in_pieces(read_study(study_file(text)), folder_ / "pieces.sqlite", 3);
-    EXPECT_EQ(contents(results()), contents(folder_ / "pieces.sqlite"));
-    const ResultFile file(results(), ResultFile::Access::read);
+    expect_same_bits(folder_ / "pieces.sqlite");
+    const ResultFile file(path_, ResultFile::Access::read);
     std::vector<double> levels;
     for (std::size_t n = 0; n < 6; ++n)
         levels.push_back(std::round(1e6 * file.point("r", n)->coordinates[0]) / 1e6);
@@ -497,10 +465,9 @@ TEST_F(RecordRunTest, RefusesInvalidBenches) {
                               "[runs.r.bench]\nsettle = 1e300\n" +
                               fine));
     ResultFile file(folder_ / "settling.sqlite", ResultFile::Access::write);
-    RunnerOptions options;
     int left = 20;
-    options.interrupted = [&] { return left-- <= 0; };
-    EXPECT_EQ(run_study(study, file, options).front().outcome, RunOutcome::interrupted);
+    const auto reports = run_study(study, file, {.interrupted = [&] { return left-- <= 0; }});
+    EXPECT_EQ(reports.front().outcome, RunOutcome::interrupted);
 }
 
 } // namespace

@@ -1,13 +1,13 @@
 #include "graze/study/run_length.hpp"
 
-#include "graze/base/input_error.hpp"
 #include "graze/model/catalogue.hpp"
+
+#include "study_fixture.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <numbers>
-#include <string>
 
 namespace graze {
 namespace {
@@ -33,13 +33,8 @@ TEST(RunLength, OfATimeCountsNoPeriods) {
 
 TEST(RunLength, RefusesContradictions) {
     const Model model = load_model("impact-oscillator");
-    const auto refusal = [&](const RunLengthRequest& request) -> std::string {
-        try {
-            run_length(model, request);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
+    const auto refusal = [&](const RunLengthRequest& request) {
+        return testing::refusal_of([&] { run_length(model, request); });
     };
     EXPECT_THAT(refusal({.time = 1, .periods = 2}), HasSubstr("time and periods cannot be given together"));
     EXPECT_THAT(refusal({.periods = 0}), HasSubstr("periods: 0 is not a positive number"));

@@ -1,17 +1,12 @@
 #include "graze/study/run_times.hpp"
 #include "graze/study/runner.hpp"
 
-#include "graze/base/input_error.hpp"
+#include "study_fixture.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
 #include <atomic>
-#include <bit>
-#include <cstdint>
-#include <filesystem>
 
 namespace graze {
 namespace {
@@ -34,51 +29,17 @@ cycles = 60
 start = { run = "sweep", at = { omega = 2.8 }, direction = "up" }
 )";
 
-class RunnerTest : public ::testing::Test {
-protected:
-    void SetUp() override {
-        path_ =
-            (std::filesystem::temp_directory_path() / ("graze-runner-" + std::to_string(getpid()) + "-" +
-                                                       ::testing::UnitTest::GetInstance()->current_test_info()->name()))
-                .string();
-        remove();
-    }
-    void TearDown() override { remove(); }
-    void remove() {
-        for (const char* ending : {"", ".lock", ".a", ".a.lock"})
-            std::filesystem::remove(path_ + ending);
-    }
-    std::string path_;
-};
-
-/// Everything that runs leave in a file.
-std::string contents(const ResultFile& file) {
-    std::string all;
-    for (const RunRecord& run : file.runs())
-        for (const std::string& table : {"points_" + run.name, "samples_" + run.name}) {
-            auto rows = file.query("SELECT * FROM \"" + table + "\" ORDER BY rowid");
-            while (rows.next()) {
-                for (std::size_t c = 0; c < rows.columns(); ++c)
-                    all += rows.is_text(c) || rows.is_null(c)
-                               ? rows.text(c) + '|'
-                               : std::to_string(std::bit_cast<std::uint64_t>(rows.number(c))) + '|';
-                all += '\n';
-            }
-        }
-    return all;
-}
+using RunnerTest = testing::StudyFixture;
 
 TEST_F(RunnerTest, ComputesEachRunOnce) {
     const Study study = parse_study(text, "s.toml");
     ResultFile file(path_, ResultFile::Access::write);
-    const auto first = run_study(
-        study, file, {.jobs = 2, .one_by_one = false, .only = {}, .interrupted = {}, .progress = {}, .orbit = {}});
+    const auto first = run_study(study, file, {.jobs = 2});
     ASSERT_EQ(first.size(), 2u);
     EXPECT_EQ(first[0].points, 22u);
     EXPECT_EQ(first[0].computed, 22u);
     EXPECT_EQ(first[1].computed, 9u);
-    const auto second = run_study(
-        study, file, {.jobs = 2, .one_by_one = false, .only = {}, .interrupted = {}, .progress = {}, .orbit = {}});
+    const auto second = run_study(study, file, {.jobs = 2});
     EXPECT_EQ(second[0].computed, 0u);
     EXPECT_EQ(second[1].computed, 0u);
     EXPECT_TRUE(second[1].complete());
@@ -102,26 +63,25 @@ TEST_F(RunnerTest, ContinuesFromAnyPointToTheSameBits) {
     const Study study = parse_study(text, "s.toml");
     std::string whole;
     {
-        ResultFile file(path_ + ".a", ResultFile::Access::write);
+        ResultFile file(folder_ / "whole.sqlite", ResultFile::Access::write);
         run_study(study, file, {});
-        whole = contents(file);
+        whole = testing::bits_of(file);
     }
     ResultFile file(path_, ResultFile::Access::write);
     std::size_t interruptions = 0;
     for (std::size_t stop_after = 1;; ++stop_after) {
         std::atomic<std::size_t> done{0};
-        RunnerOptions options;
-        options.jobs = 1 + static_cast<int>(stop_after % 3);
-        options.interrupted = [&] { return done >= stop_after; };
-        options.progress = [&](const StudyProgress&) { ++done; };
-        const auto reports = run_study(study, file, options);
+        const auto reports = run_study(study, file,
+                                       {.jobs = 1 + static_cast<int>(stop_after % 3),
+                                        .interrupted = [&] { return done >= stop_after; },
+                                        .progress = [&](const StudyProgress&) { ++done; }});
         if (reports.back().complete() && reports.size() == 2)
             break;
         ++interruptions;
         ASSERT_LT(interruptions, 100u);
     }
     EXPECT_GT(interruptions, 3u);
-    EXPECT_EQ(contents(file), whole);
+    EXPECT_EQ(testing::bits_of(file), whole);
 }
 
 TEST_F(RunnerTest, TellsWhereARunCannotStart) {

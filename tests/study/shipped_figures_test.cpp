@@ -4,19 +4,17 @@
 #include "graze/grazing/verdict.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/results/stored_run.hpp"
-#include "graze/study/runner.hpp"
 #include "graze/study/study_catalogue.hpp"
 #include "graze/study/study_table.hpp"
 
+#include "study_fixture.hpp"
+
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -25,50 +23,29 @@ namespace graze {
 namespace {
 
 /// Some runs of a shipped study, done.
-class ShippedResults {
+class ShippedResults : public testing::StudyResults {
 public:
-    explicit ShippedResults(const std::string& name) : ShippedResults(load_study(name)) {}
-    explicit ShippedResults(Study made)
-        : study(std::move(made)),
-          path_((std::filesystem::temp_directory_path() / ("graze-figures-" + std::to_string(getpid()) + ".sqlite"))
-                    .string()) {
-        std::filesystem::remove(path_);
-        file_.emplace(path_, ResultFile::Access::write);
-    }
-    ~ShippedResults() {
-        file_.reset();
-        std::filesystem::remove(path_);
-    }
-    ShippedResults(const ShippedResults&) = delete;
-    ShippedResults& operator=(const ShippedResults&) = delete;
+    using StudyResults::StudyResults;
+    explicit ShippedResults(const std::string& name) : StudyResults(load_study(name)) {}
 
     /// With the runs that they start from.
     void run(const std::vector<std::string>& names) {
-        RunnerOptions options;
-        options.only = names;
-        for (const RunReport& report : run_study(study, *file_, options)) {
-            EXPECT_TRUE(report.complete()) << report.name << ": " << report.problem;
+        for (const RunReport& report : StudyResults::run(names))
             expect_end(report.name);
-        }
-    }
-    const ResultFile& file() const { return *file_; }
-    const StudyTable& table(const std::string& name) const {
-        const auto found = std::find_if(study.tables.begin(), study.tables.end(),
-                                        [&](const StudyTable& table) { return table.name == name; });
-        return found == study.tables.end() ? throw std::out_of_range(name) : *found;
     }
     SpecialPoint point(const std::string& run, const std::string& label) const {
-        for (const OrbitRecord& record : file_->orbits(run, true))
+        for (const OrbitRecord& record : file().orbits(run, true))
             if (record.label == label)
                 return record.point;
         throw std::out_of_range(run + ":" + label);
     }
+    double parameter(const SpecialPoint& point, const char* name) const {
+        return point.solution.orbit.parameters[study.runs.front().model.independent_parameter(name).place()];
+    }
     double monitor(const std::string& run, const std::string& name) const {
-        auto rows = StoredRun(*file_, run, {}).rows({.quantities = {name}});
+        auto rows = StoredRun(file(), run, {}).rows({.quantities = {name}});
         return rows.next() ? rows.number(0) : throw std::out_of_range(run);
     }
-
-    const Study study;
 
 private:
     /// A branch ends where something ends it, unless the study says after how many steps.
@@ -77,12 +54,9 @@ private:
             std::find_if(study.runs.begin(), study.runs.end(), [&](const StudyRun& one) { return one.name == name; });
         if (run == study.runs.end() || !run->is_branch() || run->branch().settings.steps != BranchSettings().steps)
             return;
-        for (const OrbitRecord& record : file_->orbits(name, true))
+        for (const OrbitRecord& record : file().orbits(name, true))
             EXPECT_NE(record.point.detail, name_of(BranchOutcome::steps)) << name;
     }
-
-    std::string path_;
-    std::optional<ResultFile> file_;
 };
 
 /// @param voltage its column, with lambda next to it; @param computed voltages of all grazings @param printed those in
@@ -135,10 +109,6 @@ TEST(ShippedFigures, LaddersOfGrazingsOfTheMicroactuatorAreThePublishedOnes) {
     }
 }
 
-std::size_t end_parameter(const ShippedResults& results, const char* name) {
-    return results.study.runs.front().model.independent_parameter(name).place();
-}
-
 TEST(ShippedFigures, MapOfTheMicroactuatorIsThePublishedOne) {
     ShippedResults results("microactuator");
     results.run({"touches_1", "touches_2", "touches_3", "flips_1", "joining_folds_1", "slow_flips_1"});
@@ -153,8 +123,8 @@ TEST(ShippedFigures, MapOfTheMicroactuatorIsThePublishedOne) {
             EXPECT_NEAR(joints.number(i + 1, column + 1), expected[i][column], 1e-9) << i;
     // The curve of flips with one impact ends at the first joint, by its own equations.
     const SpecialPoint end = results.point("flips_1", "GR1");
-    EXPECT_NEAR(end.solution.orbit.parameters[end_parameter(results, "omega")], expected[0][0], 1e-12);
-    EXPECT_NEAR(end.solution.orbit.parameters[end_parameter(results, "V")], expected[0][1], 1e-12);
+    EXPECT_NEAR(results.parameter(end, "omega"), expected[0][0], 1e-12);
+    EXPECT_NEAR(results.parameter(end, "V"), expected[0][1], 1e-12);
     // One curve of folds leads from joint to joint. At the cusp between them two folds meet: see below.
     const Table folds = make_table(results.table("joining-folds"), results.file());
     ASSERT_EQ(folds.rows(), 3U);
@@ -170,8 +140,8 @@ TEST(ShippedFigures, MapOfTheMicroactuatorIsThePublishedOne) {
             EXPECT_LE(on_folds.number(column), folds.number(1, column + 1) + 1e-12);
     // The flips from the slower joint.
     const SpecialPoint slow = results.point("slow_flips_1", "EP1");
-    EXPECT_NEAR(slow.solution.orbit.parameters[end_parameter(results, "omega")], expected[1][0], 1e-9);
-    EXPECT_NEAR(slow.solution.orbit.parameters[end_parameter(results, "V")], expected[1][1], 1e-9);
+    EXPECT_NEAR(results.parameter(slow, "omega"), expected[1][0], 1e-9);
+    EXPECT_NEAR(results.parameter(slow, "V"), expected[1][1], 1e-9);
     // Slowly, touches come near to the static pull-in voltage 2 d / 3 sqrt(k d / (3 alpha)).
     for (const char* run : {"touches_1", "touches_2", "touches_3"}) {
         double slowest = 1, voltage = 0;
@@ -191,7 +161,7 @@ TEST(ShippedFigures, MapsOfTheMicrobeamAreThePublishedOnes) {
     results.run({"no_stop", "folds_low_stiffness", "folds_high_stiffness", "folds_low_damping", "folds_high_damping"});
     // Without a stop the curves come to the folds of a branch that has none.
     const auto voltage = [&](const char* run, const char* label) {
-        return results.point(run, label).solution.orbit.parameters[end_parameter(results, "V")];
+        return results.parameter(results.point(run, label), "V");
     };
     EXPECT_NEAR(voltage("folds_low_stiffness", "BD2"), results.point("no_stop", "SN1").parameter, 1e-12);
     EXPECT_NEAR(voltage("folds_high_stiffness", "BD2"), results.point("no_stop", "SN2").parameter, 1e-12);
@@ -436,23 +406,25 @@ TEST(ShippedFigures, StopsOfThreeStiffnessesGiveThePublishedBranches) {
     EXPECT_NEAR(results.point("polynomial_contact", "SN2").parameter, 0.0225, 3e-4);
 }
 
-/// The static pull-in curve: w and V at its fold by the balance of forces alone, V^2 = elastic(q)/attraction(q).
+/// The steady voltage at which the beam rests at a deflection, by the balance of forces alone:
+/// V^2 = elastic(q)/attraction(q).
+double steady_voltage(Model model, double deflection) {
+    const auto rate = [&](double voltage) {
+        model.set_parameter("V", voltage);
+        std::vector<double> inputs{deflection, 0, 0};
+        const std::vector<double> parameters = model.parameter_values();
+        inputs.insert(inputs.end(), parameters.begin(), parameters.end());
+        return model.function_of(std::vector<Expression>{model.modes[0].rates[1]})(inputs)[0];
+    };
+    return std::sqrt(-rate(0) / (rate(1) - rate(0)));
+}
+
+/// The static pull-in curve: w and V at its fold.
 TEST(ShippedFigures, PullInUnderASteadyVoltageIsAsPublished) {
     ShippedResults results("microbeam-stops");
     results.run({"equilibria", "oscillations"});
     const Model model = load_model("microbeam-steady");
-    const auto voltage_at = [&](double q) {
-        Model at = model;
-        at.set_parameter("V", 1);
-        std::vector<double> inputs{q, 0, 0};
-        const std::vector<double> parameters = at.parameter_values();
-        inputs.insert(inputs.end(), parameters.begin(), parameters.end());
-        const auto rate = [&](double voltage) {
-            inputs[3 + at.independent_parameter("V").place()] = voltage;
-            return at.function_of(std::vector<Expression>{at.modes[0].rates[1]})(inputs)[0];
-        };
-        return std::sqrt(-rate(0) / (rate(1) - rate(0)));
-    };
+    const auto voltage_at = [&](double q) { return steady_voltage(model, q); };
     double low = 0.005, high = 0.024; // the greatest voltage, by thirds
     for (int i = 0; i < 60; ++i) {
         const double one = low + (high - low) / 3, other = high - (high - low) / 3;
@@ -579,17 +551,7 @@ TEST(ShippedFigures, PullInByTheGapIsAsPublished) {
         const double gap = parameters[model.independent_parameter("g0").place()],
                      q = record.point.solution.orbit.starts[0][0];
         model.set_parameter("g0", gap);
-        const Function rate = model.function_of(std::vector<Expression>{model.modes[0].rates[1]});
-        const auto voltage_at = [&](double deflection) {
-            std::vector<double> inputs{deflection, 0, 0};
-            const std::vector<double> values = model.parameter_values();
-            inputs.insert(inputs.end(), values.begin(), values.end());
-            double& voltage = inputs[3 + model.independent_parameter("V").place()];
-            voltage = 0;
-            const double elastic = rate(inputs)[0];
-            voltage = 1;
-            return std::sqrt(-elastic / (rate(inputs)[0] - elastic));
-        };
+        const auto voltage_at = [&](double deflection) { return steady_voltage(model, deflection); };
         EXPECT_NEAR(record.point.parameter, gap, 1e-14);
         EXPECT_NEAR(parameters[model.independent_parameter("V").place()], voltage_at(q), 1e-10) << gap;
         const double step = 1e-4 * q; // it is flat there

@@ -1,15 +1,10 @@
 // A study gives the same results, in the same order, however many of its runs go at a time.
 
-#include "graze/results/result_file.hpp"
-#include "graze/results/result_table.hpp"
-#include "graze/study/runner.hpp"
-#include "graze/study/study.hpp"
+#include "study_fixture.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <atomic>
-#include <bit>
 #include <filesystem>
 #include <mutex>
 #include <set>
@@ -54,66 +49,29 @@ start = { run = "wrong" }
 time = 1
 )";
 
-class SideBySide : public ::testing::Test {
-protected:
-    void SetUp() override {
-        path_ =
-            (std::filesystem::temp_directory_path() / ("graze-side-" + std::to_string(getpid()) + "-" +
-                                                       ::testing::UnitTest::GetInstance()->current_test_info()->name()))
-                .string();
-        remove();
-    }
-    void TearDown() override { remove(); }
-    void remove() const {
-        for (const char* file : {"", ".a"})
-            for (const char* ending : {"", ".lock", "-wal", "-shm"})
-                std::filesystem::remove(path_ + file + ending);
-    }
-    static std::string all_rows(ResultFile::Rows rows) {
-        std::string result;
-        while (rows.next())
-            for (std::size_t c = 0; c < rows.columns(); ++c)
-                result += rows.is_null(c)      ? "-,"
-                          : rows.is_text(c)    ? rows.text(c) + ","
-                          : rows.is_integer(c) ? std::to_string(rows.integer(c)) + ","
-                                               : std::to_string(std::bit_cast<std::uint64_t>(rows.number(c))) + ",";
-        return result;
-    }
-    /// All that is in the file, to the last bit, in its order; but not when it was made.
-    static std::string contents(const ResultFile& file) {
-        std::string result;
-        for (const std::string table :
-             {"runs", "columns", "names", "multipliers", "half_multipliers", "minima", "end_values", "all_points",
-              "branch_points", "points_one", "samples_one", "points_two", "samples_two", "points_after", "branch_rest",
-              "branch_branch", "segments_branch"})
-            result += table + ": " + all_rows(file.query("SELECT * FROM " + table)) + "\n";
-        return result;
-    }
-    std::string path_;
-};
+using SideBySide = testing::StudyFixture;
+using testing::bits_of;
 
 TEST_F(SideBySide, ResultsAndTheirOrderDoNotDependOnThreads) {
     const Study study = parse_study(text, "s.toml");
     std::string alone;
     std::vector<std::string> outcomes;
     for (const int jobs : {1, 2, 3, 8}) {
-        remove();
+        std::filesystem::remove(path_);
         ResultFile file(path_, ResultFile::Access::write);
-        RunnerOptions options;
-        options.jobs = jobs;
-        const std::vector<RunReport> reports = run_study(study, file, options);
+        const std::vector<RunReport> reports = run_study(study, file, {.jobs = jobs});
         std::vector<std::string> here;
         for (const RunReport& report : reports)
             here.push_back(report.name + " " + std::to_string(static_cast<int>(report.outcome)) + " " +
                            std::to_string(report.computed) + " " + report.problem);
         if (jobs == 1) {
-            alone = contents(file);
+            alone = bits_of(file);
             outcomes = here;
             ASSERT_EQ(reports.size(), 7U);
             EXPECT_EQ(reports[5].outcome, RunOutcome::failed);
             EXPECT_EQ(reports[6].outcome, RunOutcome::skipped);
         }
-        EXPECT_EQ(contents(file), alone) << jobs;
+        EXPECT_EQ(bits_of(file), alone) << jobs;
         EXPECT_EQ(here, outcomes) << jobs;
     }
 }
@@ -122,9 +80,9 @@ TEST_F(SideBySide, ContinuesToTheSameResultsWhereverItIsInterrupted) {
     const Study study = parse_study(text, "s.toml");
     std::string whole;
     {
-        ResultFile file(path_ + ".a", ResultFile::Access::write);
+        ResultFile file(folder_ / "other.sqlite", ResultFile::Access::write);
         run_study(study, file, {});
-        whole = contents(file);
+        whole = bits_of(file);
     }
     ResultFile file(path_, ResultFile::Access::write);
     std::size_t interruptions = 0;
@@ -143,7 +101,7 @@ TEST_F(SideBySide, ContinuesToTheSameResultsWhereverItIsInterrupted) {
         ASSERT_LT(++interruptions, 60U);
     }
     EXPECT_GT(interruptions, 3U);
-    EXPECT_EQ(contents(file), whole);
+    EXPECT_EQ(bits_of(file), whole);
 }
 
 TEST_F(SideBySide, ReportsProgressFromOneThreadAtATimeWithRightCounts) {
@@ -180,15 +138,12 @@ TEST_F(SideBySide, ReportsProgressFromOneThreadAtATimeWithRightCounts) {
 TEST_F(SideBySide, AnExceptionOfTheCallerEndsAllRuns) {
     const Study study = parse_study(text, "s.toml");
     ResultFile file(path_, ResultFile::Access::write);
-    RunnerOptions options;
-    options.jobs = 3;
-    options.progress = [](const StudyProgress&) { throw std::runtime_error("enough"); };
-    EXPECT_THROW(run_study(study, file, options), std::runtime_error);
-    options.progress = {};
-    run_study(study, file, options);
-    ResultFile other(path_ + ".a", ResultFile::Access::write);
+    const auto enough = [](const StudyProgress&) { throw std::runtime_error("enough"); };
+    EXPECT_THROW(run_study(study, file, {.jobs = 3, .progress = enough}), std::runtime_error);
+    run_study(study, file, {.jobs = 3});
+    ResultFile other(folder_ / "other.sqlite", ResultFile::Access::write);
     run_study(study, other, {});
-    EXPECT_EQ(contents(file), contents(other));
+    EXPECT_EQ(bits_of(file), bits_of(other));
 }
 
 } // namespace

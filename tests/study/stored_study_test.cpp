@@ -1,21 +1,14 @@
 #include "graze/study/stored_study.hpp"
 
-#include "graze/base/input_error.hpp"
-#include "graze/model/catalogue.hpp"
-#include "graze/study/runner.hpp"
 #include "graze/study/study_catalogue.hpp"
 
 #include "study_of_every_kind.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <bit>
-#include <cstdint>
 #include <filesystem>
-#include <fstream>
 
 namespace graze {
 namespace {
@@ -24,24 +17,8 @@ using ::testing::HasSubstr;
 
 using StoredStudyTest = testing::StudyOfEveryKind;
 
-/// Every number that runs leave in a file, bit for bit.
-std::string contents(const ResultFile& file) {
-    std::string all;
-    for (const RunRecord& run : file.runs()) {
-        all += run.name + run.fingerprint + run.settings + '\n';
-        for (const char* table : {"points_", "samples_", "branch_", "segments_"}) {
-            if ((table[0] == 'b' || table[1] == 'e') != run.is_branch())
-                continue;
-            auto rows = file.query("SELECT * FROM \"" + (table + run.name) + "\" ORDER BY 1, 2");
-            while (rows.next())
-                for (std::size_t c = 0; c < rows.columns(); ++c)
-                    all += rows.is_text(c) || rows.is_null(c)
-                               ? rows.text(c) + '|'
-                               : std::to_string(std::bit_cast<std::uint64_t>(rows.number(c))) + '|';
-        }
-    }
-    return all;
-}
+using testing::bits_of;
+using testing::expect_complete;
 
 TEST_F(StoredStudyTest, EveryRunIsReadFromTheFileAlone) {
     run_and_forget();
@@ -70,9 +47,8 @@ TEST_F(StoredStudyTest, EveryRunIsRepeatedBitForBitInAnotherFile) {
     run_and_forget();
     const ResultFile file(path("results.sqlite"), ResultFile::Access::read);
     ResultFile again(path("again.sqlite"), ResultFile::Access::write);
-    for (const RunReport& report : run_study(stored_study(file), again, {}))
-        EXPECT_TRUE(report.complete()) << report.name << ": " << report.problem;
-    EXPECT_EQ(contents(again), contents(file));
+    expect_complete(run_study(stored_study(file), again, {}));
+    EXPECT_EQ(bits_of(again), bits_of(file));
     // Runs are kept as they were asked for; the rest is the same.
     const auto words_and_pictures = [](const ResultFile& one) {
         const std::string note = one.note("study").value();
@@ -87,9 +63,7 @@ TEST_F(StoredStudyTest, HasRunsThatWereNeverBegun) {
     const Study study = stored_study(whole);
     {
         ResultFile file(path("part.sqlite"), ResultFile::Access::write);
-        RunnerOptions options;
-        options.only = {"orbit"};
-        run_study(study, file, options);
+        run_study(study, file, {.only = {"orbit"}});
         ASSERT_EQ(file.runs().size(), 1U);
     }
     const Study again = stored_study(ResultFile(path("part.sqlite"), ResultFile::Access::read));
@@ -102,8 +76,7 @@ TEST_F(StoredStudyTest, HasRunsThatWereNeverBegun) {
         EXPECT_EQ(settings_of(*found), settings_of(run)) << run.name;
     }
     ResultFile file(path("part.sqlite"), ResultFile::Access::write);
-    for (const RunReport& report : run_study(again, file, {}))
-        EXPECT_TRUE(report.complete()) << report.name << ": " << report.problem;
+    expect_complete(run_study(again, file, {}));
     for (const RunRecord& record : whole.runs()) {
         const auto repeated = file.find_run(record.name);
         ASSERT_TRUE(repeated) << record.name;
@@ -120,13 +93,13 @@ TEST_F(StoredStudyTest, AnInterruptedSweepContinues) {
     std::string whole;
     {
         const ResultFile file(path("results.sqlite"), ResultFile::Access::read);
-        whole = contents(file);
+        whole = bits_of(file);
         ResultFile half(path("half.sqlite"), ResultFile::Access::write);
         std::size_t done = 0;
-        RunnerOptions options;
-        options.interrupted = [&] { return done > 6; };
-        options.progress = [&](const StudyProgress&) { ++done; };
-        EXPECT_EQ(run_study(stored_study(file), half, options).back().outcome, RunOutcome::interrupted);
+        const auto reports =
+            run_study(stored_study(file), half,
+                      {.interrupted = [&] { return done > 6; }, .progress = [&](const StudyProgress&) { ++done; }});
+        EXPECT_EQ(reports.back().outcome, RunOutcome::interrupted);
     }
     std::filesystem::remove(path("results.sqlite"));
     ResultFile half(path("half.sqlite"), ResultFile::Access::write);
@@ -136,7 +109,7 @@ TEST_F(StoredStudyTest, AnInterruptedSweepContinues) {
     const auto reports = run_study(study, half, {});
     EXPECT_TRUE(reports.front().complete());
     EXPECT_LT(reports.front().computed, reports.front().points);
-    EXPECT_EQ(contents(half), whole);
+    EXPECT_EQ(bits_of(half), whole);
 }
 
 TEST_F(StoredStudyTest, ABranchIsContinuedFromItsLastPoint) {
@@ -164,9 +137,7 @@ TEST_F(StoredStudyTest, ShippedStudiesAreStoredWhole) {
     for (const std::string& name : shipped_studies()) {
         const Study study = load_study(name);
         ResultFile file(path(name), ResultFile::Access::write);
-        RunnerOptions options;
-        options.interrupted = [] { return true; };
-        run_study(study, file, options);
+        run_study(study, file, {.interrupted = [] { return true; }});
         const Study stored = stored_study(file);
         ASSERT_FALSE(stored.runs.empty());
         for (const StudyRun& run : stored.runs)
@@ -177,26 +148,21 @@ TEST_F(StoredStudyTest, ShippedStudiesAreStoredWhole) {
     }
 }
 
-std::string refusal(const RunRecord& record) {
-    try {
-        stored_run(record);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+std::string refusal_of_stored(const RunRecord& record) {
+    return testing::refusal_of([&] { stored_run(record); });
 }
 
 TEST_F(StoredStudyTest, TellsWhatIsWrongWithSettings) {
     run_and_forget();
     const ResultFile file(path("results.sqlite"), ResultFile::Access::read);
     const RunRecord good = *file.find_run("sweep");
-    EXPECT_EQ(refusal(good), "");
+    EXPECT_EQ(refusal_of_stored(good), "");
     const auto changed = [&](const std::string& from, const std::string& to) {
         RunRecord record = good;
         const std::size_t at = record.settings.find(from);
         EXPECT_NE(at, std::string::npos) << from;
         record.settings.replace(at, from.size(), to);
-        return refusal(record);
+        return refusal_of_stored(record);
     };
     EXPECT_THAT(changed("{", ""), HasSubstr("no JSON"));
     EXPECT_THAT(changed("\"cycles\":60", "\"cycles\":\"many\""), HasSubstr("'cycles' is not a whole number"));
@@ -208,13 +174,13 @@ TEST_F(StoredStudyTest, TellsWhatIsWrongWithSettings) {
     RunRecord later = good;
     later.version = "99.1.0";
     later.settings.insert(1, "\"new\":1,");
-    EXPECT_THAT(refusal(later), HasSubstr("more than this version of graze knows; use graze 99.1.0"));
+    EXPECT_THAT(refusal_of_stored(later), HasSubstr("more than this version of graze knows; use graze 99.1.0"));
     RunRecord many = *file.find_run("basin");
     many.settings.replace(many.settings.find("\"draws\":9"), 9, "\"draws\":999999999");
-    EXPECT_THAT(refusal(many), HasSubstr("twenty million"));
+    EXPECT_THAT(refusal_of_stored(many), HasSubstr("twenty million"));
     RunRecord deep = good;
     deep.settings = std::string(100'000, '[');
-    EXPECT_THAT(refusal(deep), HasSubstr("nested"));
+    EXPECT_THAT(refusal_of_stored(deep), HasSubstr("nested"));
 }
 
 } // namespace

@@ -1,8 +1,9 @@
 #include "graze/study/study_keys.hpp"
 
+#include "graze/results/name_advice.hpp"
 #include "graze/study/study_schema.hpp"
 #include "study/json.hpp"
-#include "study/refusal.hpp"
+#include "study/study_fixture.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -17,13 +18,6 @@ using ::testing::Contains;
 using ::testing::Field;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-std::vector<RunKind> all_kinds() {
-    std::vector<RunKind> kinds;
-    for (std::size_t kind = 0; kind < kinds_of_runs().size(); ++kind)
-        kinds.push_back(static_cast<RunKind>(kind));
-    return kinds;
-}
 
 std::string standard_of(RunKind kind, const std::string& name) {
     for (const StudyKey& key : study_keys(kind))
@@ -40,7 +34,8 @@ std::string sweep_with(const std::string& line) {
 }
 
 TEST(StudyKeys, EachIsListedOnceWithAMeaning) {
-    for (const RunKind kind : all_kinds()) {
+    for (const std::string& name : kinds_of_runs()) {
+        const RunKind kind = run_kind(name).value();
         std::set<std::string> names;
         for (const StudyKey& key : study_keys(kind)) {
             EXPECT_TRUE(names.insert(key.name).second) << name_of(kind) << " " << key.name;
@@ -72,10 +67,7 @@ TEST(StudyKeys, AreRefusedInRunsOfOtherKinds) {
         const std::vector<StudyKey> of_sweeps = study_keys(RunKind::sweep);
         if (std::any_of(of_sweeps.begin(), of_sweeps.end(), [&](const auto& one) { return one.name == key.name; }))
             continue;
-        const std::string refusal = refusal_of([&] {
-            parse_study(sweep_with(key.name + " = 1"), "s.toml");
-            return std::vector<RunReport>{};
-        });
+        const std::string refusal = testing::refusal_of([&] { parse_study(sweep_with(key.name + " = 1"), "s.toml"); });
         EXPECT_THAT(refusal, HasSubstr("runs of kind \"sweep\" have no `" + key.name + "`"));
     }
 }
@@ -85,12 +77,7 @@ TEST(StudyKeys, OfASweepAreTakenInTheirRangesAndRefusedBeyond) {
     const std::set<std::string> needs_others{"draws", "seed"};
     for (const StudyKey& key : study_keys(RunKind::sweep)) {
         const auto takes = [&](const std::string& value) {
-            try {
-                parse_study(sweep_with(key.name + " = " + value), "s.toml");
-                return true;
-            } catch (const InputError&) {
-                return false;
-            }
+            return testing::refusal_of([&] { parse_study(sweep_with(key.name + " = " + value), "s.toml"); }).empty();
         };
         if (needs_others.contains(key.name))
             continue;
@@ -125,10 +112,8 @@ TEST(StudySchema, HasTheKeysOfEveryKind) {
     ASSERT_EQ(kinds.size(), kinds_of_runs().size());
     for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
         EXPECT_EQ(kinds[kind].find("if")->find("properties")->find("kind")->find("const")->text, kinds_of_runs()[kind]);
-        std::vector<std::string> names;
-        for (const StudyKey& key : study_keys(static_cast<RunKind>(kind)))
-            names.push_back(key.name);
-        EXPECT_EQ(kinds[kind].find("then")->find("properties")->names, names);
+        EXPECT_EQ(kinds[kind].find("then")->find("properties")->names,
+                  names_of(study_keys(static_cast<RunKind>(kind))));
     }
 }
 

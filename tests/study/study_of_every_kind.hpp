@@ -2,15 +2,11 @@
 
 #include "graze/model/catalogue.hpp"
 #include "graze/orbit/solve.hpp"
-#include "graze/results/result_file.hpp"
-#include "graze/study/runner.hpp"
-#include "graze/study/study.hpp"
+#include "study/study_fixture.hpp"
 
-#include <gtest/gtest.h>
-#include <unistd.h>
+#include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 namespace graze::testing {
@@ -76,58 +72,38 @@ kind = "portrait"
 at = [{ omega = 2.8 }]
 )";
 
-class StudyOfEveryKind : public ::testing::Test {
-protected:
-    void SetUp() override {
-        folder_ =
-            std::filesystem::temp_directory_path() / ("graze-every-kind-" + std::to_string(getpid()) + "-" +
-                                                      ::testing::UnitTest::GetInstance()->current_test_info()->name());
-        std::filesystem::remove_all(folder_);
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-    std::string path(const std::string& name) const { return (folder_ / name).string(); }
-    void write(const std::string& name, const std::string& contents) const { std::ofstream(path(name)) << contents; }
+/// A table of the motion along an orbit: both ends of each segment.
+inline std::string table_of(const Model& model, const Orbit& orbit) {
+    std::string rows = "segment,t,x,v,theta,end\n";
+    double time = 0;
+    for (std::size_t s = 0; s < orbit.segments(); time += orbit.durations[s++])
+        for (const double at : {0.0, orbit.durations[s]})
+            rows += fmt::format("{},{:.12g},{:.12g},{}\n", s + 1, time + at, fmt::join(orbit.starts[s], ","),
+                                end_name(model, orbit.signature[s]));
+    return rows;
+}
 
+class StudyOfEveryKind : public StudyFixture {
+protected:
+    std::string path(const std::string& name) const { return folder_ / name; }
     /// Runs the study, and removes all that it was read from.
     void run_and_forget() const {
-        write("study.toml", text_of_every_kind);
-        write("model.toml", model_text("impact-oscillator"));
-        write("orbit.csv", "segment,t,x,v,theta,end\n" + orbit_rows());
-        const Study study = read_study(path("study.toml"));
-        ResultFile file(path("results.sqlite"), ResultFile::Access::write);
-        for (const RunReport& report : run_study(study, file, {}))
-            ASSERT_TRUE(report.complete()) << report.name << ": " << report.problem;
-        for (const char* name : {"study.toml", "model.toml", "orbit.csv"})
+        folder_.write("model.toml", std::string(find_in_catalogue("impact-oscillator")->text));
+        folder_.write("orbit.csv", table_of_orbit());
+        expect_complete(run(text_of_every_kind));
+        for (const char* name : {"s.toml", "model.toml", "orbit.csv"})
             std::filesystem::remove(path(name));
     }
 
-    std::filesystem::path folder_;
-
 private:
-    static std::string model_text(const std::string& name) { return std::string(find_in_catalogue(name)->text); }
-    /// An orbit with one impact, found by simulation.
-    static std::string orbit_rows();
-};
-
-inline std::string StudyOfEveryKind::orbit_rows() {
-    Model model = load_model("impact-oscillator");
-    model.set_parameter("omega", 2.8);
-    AttractorOptions settle;
-    settle.section = model.sections.front().name;
-    const Orbit orbit = find_orbit(System(model), settle).orbit;
-    std::string rows;
-    double time = 0;
-    for (std::size_t s = 0; s < orbit.segments(); ++s) {
-        for (const double at : {0.0, orbit.durations[s]}) {
-            rows += std::to_string(s + 1) + ',' + std::to_string(time + at);
-            for (const double value : orbit.starts[s])
-                rows += ',' + std::to_string(value);
-            rows += ',' + end_name(model, orbit.signature[s]) + '\n';
-        }
-        time += orbit.durations[s];
+    /// Of an orbit with one impact, found by simulation.
+    static std::string table_of_orbit() {
+        Model model = load_model("impact-oscillator");
+        model.set_parameter("omega", 2.8);
+        AttractorOptions settle;
+        settle.section = model.sections.front().name;
+        return table_of(model, find_orbit(System(model), settle).orbit);
     }
-    return rows;
-}
+};
 
 } // namespace graze::testing

@@ -1,13 +1,9 @@
-#include "graze/results/result_file.hpp"
-#include "graze/study/runner.hpp"
 #include "graze/study/stored_study.hpp"
-#include "graze/study/study.hpp"
+
+#include "study_fixture.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
 
 namespace graze {
 namespace {
@@ -64,12 +60,7 @@ TEST(StudySet, GivesTheResultsOfAStudyWithThatValue) {
 
 TEST(StudySet, RefusesValuesThatChangeNothing) {
     const auto message = [](const ParameterValues& set) {
-        try {
-            parse_study(text, "s.toml", set);
-        } catch (const InputError& error) {
-            return std::string(error.what());
-        }
-        return std::string();
+        return testing::refusal_of([&] { parse_study(text, "s.toml", set); });
     };
     EXPECT_THAT(message({{"omga", 1}}), HasSubstr("did you mean 'omega'?"));
     EXPECT_THAT(message({{"x", 1}}), HasSubstr("'x' is a state, not a parameter; change in the study"));
@@ -79,20 +70,17 @@ TEST(StudySet, RefusesValuesThatChangeNothing) {
 }
 
 TEST(StudySet, IsStoredWithTheResults) {
-    const std::string path =
-        (std::filesystem::temp_directory_path() / ("graze-study-set-" + std::to_string(getpid()))).string();
+    const testing::TemporaryFolder folder;
     {
-        ResultFile file(path, ResultFile::Access::write);
+        ResultFile file(folder / "r.sqlite", ResultFile::Access::write);
         EXPECT_FALSE(stored_set(file));
         run_study(parse_study(text, "s.toml", {{"omega", 2.5}, {"sigma", 0.25}}), file, {});
     }
     {
-        const ResultFile file(path, ResultFile::Access::read);
+        const ResultFile file(folder / "r.sqlite", ResultFile::Access::read);
         EXPECT_THAT(stored_set(file).value(), ElementsAre(Pair("omega", 2.5), Pair("sigma", 0.25)));
         EXPECT_EQ(stored_study(file).set.size(), 2U);
     }
-    for (const char* ending : {"", ".lock"})
-        std::filesystem::remove(path + ending);
 }
 
 } // namespace

@@ -1,16 +1,14 @@
 #include "graze/study/study_table.hpp"
 
-#include "graze/base/input_error.hpp"
-#include "graze/study/runner.hpp"
+#include "graze/results/name_advice.hpp"
 #include "graze/study/stored_study.hpp"
+
+#include "study_fixture.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -48,19 +46,7 @@ sample = { low = { minima = "x" }, high = { maxima = "x" } }
 )";
 
 std::string refusal(const std::string& table) {
-    try {
-        parse_study(runs + table, "s.toml");
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
-}
-
-std::vector<std::string> column_names(const Table& table) {
-    std::vector<std::string> names;
-    for (const Table::Column& column : table.columns())
-        names.push_back(column.name);
-    return names;
+    return testing::refusal_of([&] { parse_study(runs + table, "s.toml"); });
 }
 
 std::size_t column(const Table& table, const std::string& name) {
@@ -70,39 +56,10 @@ std::size_t column(const Table& table, const std::string& name) {
     throw std::out_of_range(name);
 }
 
-/// The results of a study, done once, without those of its runs that are not needed.
-class Results {
-public:
-    Results(const Study& study, const std::vector<std::string>& only)
-        : path_((std::filesystem::temp_directory_path() / ("graze-table-" + std::to_string(getpid()) + ".sqlite"))
-                    .string()) {
-        std::filesystem::remove(path_);
-        file_.emplace(path_, ResultFile::Access::write);
-        RunnerOptions options;
-        options.only = only;
-        for (const RunReport& report : run_study(study, *file_, options))
-            EXPECT_TRUE(report.complete()) << report.name << ": " << report.problem;
-    }
-    ~Results() {
-        file_.reset();
-        std::filesystem::remove(path_);
-    }
-    Results(const Results&) = delete;
-    Results& operator=(const Results&) = delete;
-
-    const ResultFile& file() const { return *file_; }
-
-private:
-    std::string path_;
-    std::optional<ResultFile> file_;
+/// The results of these runs of a study.
+struct Results : testing::StudyResults {
+    Results(const Study& of, const std::vector<std::string>& only) : StudyResults(of) { run(only); }
 };
-
-const StudyTable& table_named(const Study& study, const std::string& name) {
-    for (const StudyTable& table : study.tables)
-        if (table.name == name)
-            return table;
-    throw std::out_of_range(name);
-}
 
 TEST(StudyTable, HasRowsOfSpecialPoints) {
     const Study study = parse_study(runs + R"(
@@ -116,8 +73,8 @@ columns = ["amplitude"]
 )",
                                     "s.toml");
     const Results results(study, {"up", "hits"});
-    const Table table = make_table(table_named(study, "grazings"), results.file());
-    EXPECT_THAT(column_names(table), ElementsAre("run", "label", "amplitude", "depth", "signature"));
+    const Table table = make_table(results.table("grazings"), results.file());
+    EXPECT_THAT(names_of(table.columns()), ElementsAre("run", "label", "amplitude", "depth", "signature"));
     ASSERT_GE(table.rows(), 1u);
     EXPECT_EQ(table.text(0, 0), "up");
     EXPECT_EQ(table.text(0, 1), "GR1");
@@ -129,7 +86,7 @@ columns = ["amplitude"]
     EXPECT_NEAR(table.number(0, 3), 0.5, 1e-11);
     EXPECT_FALSE(table.text(0, 4).empty());
     // Without types, all points that have a label.
-    EXPECT_EQ(make_table(table_named(study, "all"), results.file()).rows(), results.file().orbits("up", true).size());
+    EXPECT_EQ(make_table(results.table("all"), results.file()).rows(), results.file().orbits("up", true).size());
 }
 
 TEST(StudyTable, HasRowsOfSamplesOrOfPoints) {
@@ -144,15 +101,15 @@ columns = ["ending_time"]
 )",
                                     "s.toml");
     const Results results(study, {"motion"});
-    const Table lows = make_table(table_named(study, "lows"), results.file());
-    EXPECT_THAT(column_names(lows), ElementsAre("x", "same", "t"));
+    const Table lows = make_table(results.table("lows"), results.file());
+    EXPECT_THAT(names_of(lows.columns()), ElementsAre("x", "same", "t"));
     ASSERT_GT(lows.rows(), 2u);
     for (std::size_t r = 0; r < lows.rows(); ++r) {
         EXPECT_EQ(lows.number(r, 0), lows.number(r, 1));
         EXPECT_LT(lows.number(r, 0), 0);
         EXPECT_GT(lows.number(r, 2), r == 0 ? 0 : lows.number(r - 1, 2));
     }
-    const Table points = make_table(table_named(study, "points"), results.file());
+    const Table points = make_table(results.table("points"), results.file());
     ASSERT_EQ(points.rows(), 1u);
     EXPECT_EQ(points.number(0, 0), 30);
 }
@@ -188,12 +145,8 @@ ratios = { of_sigma = "sigma", of_third = "third", of_none = "constant", of_word
 TEST(StudyTable, TellsWhatTheResultsDoNotHave) {
     const Study study = parse_study(runs + "[tables.t]\nrun = \"up\"\ncolumns = [\"speed\"]\n", "s.toml");
     const Results results(study, {"up"});
-    try {
-        make_table(study.tables.at(0), results.file());
-        ADD_FAILURE() << "a column that is not there";
-    } catch (const InputError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("s.toml:25:9: run 'up': no such column: speed"));
-    }
+    EXPECT_THAT(testing::refusal_of([&] { make_table(study.tables.at(0), results.file()); }),
+                HasSubstr("s.toml:25:9: run 'up': no such column: speed"));
 }
 
 TEST(StudyTable, IsStoredWithTheResults) {

@@ -1,9 +1,10 @@
 #include "graze/study/study.hpp"
 
-#include "graze/model/model_file.hpp"
-#include "graze/study/runner.hpp"
 #include "graze/study/stored_study.hpp"
 #include "graze/study/study_catalogue.hpp"
+
+#include "results/run_of_model.hpp"
+#include "study_fixture.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -20,12 +21,7 @@ using ::testing::HasSubstr;
 const std::string head = "name = \"s\"\nmodel = \"impact-oscillator\"\n";
 
 std::string refusal(const std::string& text) {
-    try {
-        parse_study(text, "s.toml");
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return testing::refusal_of([&] { parse_study(text, "s.toml"); });
 }
 
 StudyRun only_run(const std::string& text) {
@@ -263,15 +259,8 @@ TEST(Study, FreeParametersMayHaveBounds) {
     EXPECT_EQ(bounds.greatest, 10 * run.model.parameter_values()[run.model.independent_parameter("e").place()]);
     EXPECT_TRUE(only_run(follow + "free = [\"amplitude\"]").branch().settings.free_bounds.empty());
     // As a result file keeps them.
-    RunRecord record;
-    record.name = "a";
-    record.kind = "continue";
-    record.model = write_model(run.model);
+    RunRecord record = testing::run_of(run.model, "a", "continue");
     record.settings = settings_of(run);
-    for (const State& state : run.model.states)
-        record.states.push_back({state.name, state.unit});
-    for (const Mode& mode : run.model.modes)
-        record.modes.push_back(mode.name);
     const StudyRun again = stored_run(record);
     EXPECT_EQ(again.branch().settings.free_bounds.at(0).parameter, bounds.parameter);
     EXPECT_EQ(again.branch().settings.free_bounds.at(0).greatest, bounds.greatest);

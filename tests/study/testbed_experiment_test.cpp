@@ -2,10 +2,9 @@
 
 #include "graze/results/result_file.hpp"
 #include "graze/results/stored_run.hpp"
-#include "graze/study/runner.hpp"
 #include "graze/study/study_catalogue.hpp"
 
-#include "../base/temporary_folder.hpp"
+#include "study_fixture.hpp"
 
 #include <gtest/gtest.h>
 
@@ -34,20 +33,12 @@ std::map<std::string, Estimate> found_in(const ResultFile& file, const std::map<
     return found;
 }
 
-RunnerOptions with_two_threads(std::vector<std::string> only) {
-    RunnerOptions options;
-    options.jobs = 2;
-    options.only = std::move(only);
-    return options;
-}
-
 TEST(TestbedExperimentSlow, HiddenParametersAreFoundAndPredictMeasurements) {
     const Study study = load_study("testbed-experiment");
     const auto hidden = hidden_of(study);
     testing::TemporaryFolder folder;
     ResultFile file(folder / "r.sqlite", ResultFile::Access::write);
-    for (const RunReport& report : run_study(study, file, with_two_threads({})))
-        EXPECT_TRUE(report.complete()) << report.name << ": " << report.problem;
+    testing::expect_complete(run_study(study, file, {.jobs = 2}));
     const auto found = found_in(file, hidden);
     ASSERT_EQ(found.size(), hidden.size());
     for (const auto& [name, estimate] : found) {
@@ -88,7 +79,7 @@ TEST(TestbedExperimentSlow, IntervalsHoldTheHiddenValuesWhateverTheNoise) {
             if (run.kind == RunKind::record && run.record().bench)
                 run.record().bench->seed += 1000;
         ResultFile file(folder / "r" + std::to_string(trial), ResultFile::Access::write);
-        run_study(study, file, with_two_threads({"decay", "impacts", "coupling", "coil"}));
+        run_study(study, file, {.jobs = 2, .only = {"decay", "impacts", "coupling", "coil"}});
         for (const auto& [name, estimate] : found_in(file, hidden)) {
             inside += std::abs(estimate.value - hidden.at(name)) <= estimate.half_width() ? 1 : 0;
             ++all;

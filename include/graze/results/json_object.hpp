@@ -17,7 +17,7 @@ public:
     const std::string& members() const { return members_; }
 
 private:
-    void begin(std::string_view name);
+    void put(std::string_view name, const std::string& value);
     std::string members_;
 };
 

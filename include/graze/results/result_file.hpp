@@ -1,7 +1,7 @@
 #pragma once
 
 #include "graze/base/input_error.hpp"
-#include "graze/results/estimate_record.hpp"
+#include "graze/identify/estimate.hpp"
 #include "graze/results/orbit_record.hpp"
 #include "graze/sweep/attractor.hpp"
 
@@ -66,6 +66,21 @@ struct RunRecord {
     const std::string& point_name(const std::string& label) const;
     /// The label of the point with this name; empty if there is none.
     std::string label_named(const std::string& shown) const;
+};
+
+/// A number estimated from measurements, as a result file stores it.
+struct EstimateRecord {
+    std::string name; ///< the name of the parameter, if the number is one
+    std::string unit;
+    Estimate estimate{}; ///< the error is unknown if there are no degrees of freedom
+    std::string note{};  ///< for example "at its bound"; empty: none
+};
+
+/// The estimates of one run of kind `identify`.
+struct EstimateRecords {
+    std::vector<EstimateRecord> numbers{};
+    /// Covariance matrix of the numbers, row by row; 0 where a covariance is unknown. Empty: all are unknown.
+    std::vector<double> covariance{};
 };
 
 /// Path of the result file in the folder of a study; a path of a file is returned unchanged.

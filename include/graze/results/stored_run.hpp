@@ -68,8 +68,6 @@ struct StoredRun {
     std::size_t samples() const;
     /// Least and greatest value of a quantity over all points; nothing if there are no two different ones.
     std::optional<std::pair<double, double>> extent(const std::string& quantity) const;
-    /// Greatest minus least number over all samples, for each value of the run; empty for a branch.
-    std::vector<double> value_spreads() const;
     /// Labels with the number of points that have them, most frequent first.
     std::vector<std::pair<std::string, std::size_t>> label_counts() const;
     /// Parts of a branch (directions in which it was followed) that have points.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "graze/results/state_columns.hpp"
+#include "graze/results/quantity_evaluator.hpp"
 #include "graze/trajectory/observer.hpp"
 #include "graze/trajectory/trajectory.hpp"
 

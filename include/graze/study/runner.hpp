@@ -23,14 +23,14 @@ struct StudyProgress {
 };
 
 struct RunnerOptions {
-    int jobs = 1;                      ///< threads, shared by runs that are independent and by the chains of each run
-    bool one_by_one = false;           ///< runs follow one another, each with all threads that it can use
-    std::vector<std::string> only;     ///< names of runs; those that they need are done as well; empty: all runs
-    std::function<bool()> interrupted; ///< true stops the study
+    int jobs = 1;                        ///< threads, shared by runs that are independent and by the chains of each run
+    bool one_by_one = false;             ///< runs follow one another, each with all threads that it can use
+    std::vector<std::string> only{};     ///< names of runs; those that they need are done as well; empty: all runs
+    std::function<bool()> interrupted{}; ///< true stops the study
     /// Called after each point.
-    std::function<void(const StudyProgress& progress)> progress;
+    std::function<void(const StudyProgress& progress)> progress{};
     /// Called with each orbit of a branch as it is found. Orbits of runs that go on side by side alternate.
-    std::function<void(const std::string& run, const OrbitRecord& orbit)> orbit;
+    std::function<void(const std::string& run, const OrbitRecord& orbit)> orbit{};
 };
 
 enum class RunOutcome {

@@ -11,7 +11,7 @@ namespace graze {
 /// A key that runs of one kind may have in a study file.
 struct StudyKey {
     std::string name;
-    std::string type; ///< "number", "whole number", "true or false", "text", "texts", "one of", or how it is written
+    std::string type;     ///< "number", "whole number", "true or false", "text", "one of", or how it is written
     std::string standard; ///< its default; empty: `meaning` tells what holds where the key is left out
     std::string meaning;
     std::optional<double> least, most; ///< range of a number

@@ -1,7 +1,5 @@
 // How pictures look: the keys of a study that say so.
 
-#include "study/picture_style.hpp"
-
 #include "graze/study/stored_study.hpp"
 
 #include <gmock/gmock.h>
