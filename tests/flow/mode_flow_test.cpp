@@ -20,26 +20,12 @@ namespace {
 Model spring() {
     return parse_model(R"(
 name = "spring"
-[parameters]
-c = 7
-k = 4
-[states]
-x = 1
-v = 0
-[events]
-wall = "x - 0.5"
-[modes.free]
-rates = { x = "v", v = "-k*x" }
-watch = ["wall"]
-[jumps.impact]
-v = "-v"
-[[transitions]]
-mode = "free"
-event = "wall"
-jump = "impact"
-next = "free"
-[initial]
-mode = "free"
+parameters = { c = 7, k = 4 }
+states = { x = 1, v = 0 }
+events = { wall = "x - 0.5" }
+modes.free = { rates = { x = "v", v = "-k*x" }, watch = ["wall"] }
+jumps.impact.v = "-v"
+transitions = [{ mode = "free", event = "wall", jump = "impact", next = "free" }]
 )",
                        "spring.toml");
 }

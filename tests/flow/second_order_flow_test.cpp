@@ -171,20 +171,10 @@ TEST(SecondOrderFlow, AgreesWithClosedFormsForwardsAndBackwards) {
 Model pendulum() {
     return parse_model(R"(
 name = "pendulum"
-[parameters]
-damping = 0.1
-force = 1.2
-omega = 0.7
-[states]
-x = 1
-v = 0
-theta = { initial = 0, period = "2*pi" }
-[modes.swing]
-rates = { x = "v", v = "force*cos(theta) - sin(x) - damping*v", theta = "omega" }
-[modes.fall]
-rates = { x = "v", v = "force - damping*v^2", theta = "omega" }
-[initial]
-mode = "swing"
+parameters = { damping = 0.1, force = 1.2, omega = 0.7 }
+states = { x = 1, v = 0, theta = { initial = 0, period = "2*pi" } }
+modes.swing = { rates = { x = "v", v = "force*cos(theta) - sin(x) - damping*v", theta = "omega" } }
+modes.fall = { rates = { x = "v", v = "force - damping*v^2", theta = "omega" } }
 )",
                        "pendulum.toml");
 }

@@ -18,34 +18,15 @@ using Numbers = std::vector<double>;
 Model model() {
     return parse_model(R"(
 name = "names"
-[parameters]
-along_0 = 3
-c = 2
-d = "c*along_0"
-[states]
-x = 1
-along_1 = 0.5
-[definitions]
-along_2 = "x*along_1"
-[events]
-wall = "d*x^2 - along_2"
-[modes.free]
-rates = { x = "along_1", along_1 = "-d*x*along_2" }
-watch = ["wall"]
-[jumps.impact]
-along_1 = "-c*along_1^3*x"
-[[transitions]]
-mode = "free"
-event = "wall"
-jump = "impact"
-next = "free"
-[sections.top]
-function = "sin(c*x)*along_1"
-[symmetries.half]
-map = { x = "-x^3", along_1 = "-along_1" }
-modes = { free = "free" }
-[initial]
-mode = "free"
+parameters = { along_0 = 3, c = 2, d = "c*along_0" }
+states = { x = 1, along_1 = 0.5 }
+definitions = { along_2 = "x*along_1" }
+events = { wall = "d*x^2 - along_2" }
+modes.free = { rates = { x = "along_1", along_1 = "-d*x*along_2" }, watch = ["wall"] }
+jumps.impact.along_1 = "-c*along_1^3*x"
+transitions = [{ mode = "free", event = "wall", jump = "impact", next = "free" }]
+sections.top.function = "sin(c*x)*along_1"
+symmetries.half = { map = { x = "-x^3", along_1 = "-along_1" }, modes = { free = "free" } }
 )",
                        "names.toml");
 }

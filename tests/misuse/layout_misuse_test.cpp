@@ -31,31 +31,16 @@ LayoutLibrary library() {
 }
 
 void drawings(WrongUses& wrong) {
-    const auto stream = [&](const std::string& name, const std::function<void(LayoutLibrary&)>& change) {
-        wrong("gds_" + name, [change] {
-            LayoutLibrary changed = library();
-            change(changed);
-            keep(gds_stream(changed));
-        });
-    };
-    const auto both = [&](const std::string& name, const std::function<void(LayoutLibrary&)>& change) {
-        stream(name, change);
-        wrong("flattened_" + name, [change] {
-            LayoutLibrary changed = library();
-            change(changed);
-            keep(flattened(changed, "outer"));
-        });
-        wrong("areas_" + name, [change] {
-            LayoutLibrary changed = library();
-            change(changed);
-            keep(areas_of(changed, "outer"));
-        });
-    };
-    both("cell_missing", [](LayoutLibrary& l) { l.cells[1].references[0].cell = "nothing"; });
-    both("cell_after", [](LayoutLibrary& l) { std::swap(l.cells[0], l.cells[1]); });
-    both("cell_in_itself", [](LayoutLibrary& l) { l.cells[1].references[0].cell = "outer"; });
-    both("cells_in_a_circle", [](LayoutLibrary& l) { l.cells[0].references.push_back({"outer", {}, false, 0}); });
-    both("cell_twice", [](LayoutLibrary& l) { l.cells[0].name = "outer"; });
+    const auto stream = wrong.spoiled<LayoutLibrary>(library, {{"gds", [](LayoutLibrary& l) { keep(gds_stream(l)); }}});
+    const auto all =
+        wrong.spoiled<LayoutLibrary>(library, {{"gds", [](LayoutLibrary& l) { keep(gds_stream(l)); }},
+                                               {"flattened", [](LayoutLibrary& l) { keep(flattened(l, "outer")); }},
+                                               {"areas", [](LayoutLibrary& l) { keep(areas_of(l, "outer")); }}});
+    all("cell_missing", [](LayoutLibrary& l) { l.cells[1].references[0].cell = "nothing"; });
+    all("cell_after", [](LayoutLibrary& l) { std::swap(l.cells[0], l.cells[1]); });
+    all("cell_in_itself", [](LayoutLibrary& l) { l.cells[1].references[0].cell = "outer"; });
+    all("cells_in_a_circle", [](LayoutLibrary& l) { l.cells[0].references.push_back({"outer", {}, false, 0}); });
+    all("cell_twice", [](LayoutLibrary& l) { l.cells[0].name = "outer"; });
     stream("cell_without_name", [](LayoutLibrary& l) { l.cells[1].name.clear(); });
     stream("cell_name_long", [](LayoutLibrary& l) { l.cells[1].name = std::string(33, 'a'); });
     stream("library_name_long", [](LayoutLibrary& l) { l.name = std::string(70'000, 'a'); });
@@ -123,14 +108,13 @@ void parts(WrongUses& wrong) {
 void designs(WrongUses& wrong) {
     static const Design design = load_design("mems-switch");
     const std::size_t count = design.dimensions.size();
-    for (const auto& [name, length] : wrong_lengths(count))
-        wrong("with_values_" + name, [length = length] { keep(with_values(design, std::vector<double>(length, 1))); });
-    for (const auto& [name, value] : not_finite())
-        wrong("with_values_" + name, [value = value, count] {
-            std::vector<double> values(count, 1);
-            values.back() = value;
-            keep(with_values(design, values));
-        });
+    wrong("with_values", wrong_lengths(count),
+          [](std::size_t length) { keep(with_values(design, std::vector<double>(length, 1))); });
+    wrong("with_values", not_finite(), [count](double value) {
+        std::vector<double> values(count, 1);
+        values.back() = value;
+        keep(with_values(design, values));
+    });
     wrong("design_unknown", [] { keep(load_design("nothing-there")); });
 }
 
@@ -157,17 +141,8 @@ void tables(WrongUses& wrong) {
     wrong("table_of_no_columns", [] { keep(Table().number(0, 0)); });
 }
 
-std::vector<WrongUse> wrong_layout_uses() {
-    WrongUses wrong;
-    drawings(wrong);
-    parts(wrong);
-    designs(wrong);
-    tables(wrong);
-    return wrong.list();
-}
-
 TEST(WrongLayoutUse, IsRefused) {
-    each_of(wrong_layout_uses(), expect_refusal);
+    expect_refusals({drawings, parts, designs, tables});
 }
 
 /// A copy of a table owns its texts.

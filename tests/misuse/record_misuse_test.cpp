@@ -56,8 +56,7 @@ Period period() {
 }
 
 void samples(WrongUses& wrong) {
-    for (const auto& [name, last] : wrong_indices(401))
-        wrong("append_last_" + name, [last = last] { Samples().append(wave(), 0, last); });
+    wrong("append_last", wrong_indices(401), [](std::size_t last) { Samples().append(wave(), 0, last); });
     wrong("append_reversed", [] { Samples().append(wave(), 5, 4); });
     wrong("append_other_channels", [] {
         Samples all = wave(), other = wave();
@@ -75,13 +74,8 @@ void samples(WrongUses& wrong) {
         ragged.values[1].clear();
         ragged.drop_front(5);
     });
-    const auto stored = [&](const std::string& name, const std::function<void(Samples&)>& change) {
-        wrong("stored_" + name, [change] {
-            Samples changed = wave();
-            change(changed);
-            StoredSamples(header(), changed);
-        });
-    };
+    const auto stored =
+        wrong.spoiled<Samples>([] { return wave(); }, {{"stored", [](Samples& s) { StoredSamples(header(), s); }}});
     stored("other_channels", [](Samples& s) { s.values.pop_back(); });
     stored("ragged", [](Samples& s) { s.values[0].pop_back(); });
     stored("times_fall", [](Samples& s) { s.times[3] = s.times[2]; });
@@ -100,19 +94,16 @@ void samples(WrongUses& wrong) {
 void writers(WrongUses& wrong) {
     for (const std::string ending : {"h5", "csv"}) {
         const auto writer = [&](const std::string& name, const std::function<void(RecordWriter&)>& use) {
-            wrong("writer_" + ending + "_" + name, [use, ending] {
-                const TemporaryFolder folder;
+            wrong("writer_" + ending + "_" + name, [use, ending](TemporaryFolder& folder) {
                 RecordWriter writer(folder / ("r." + ending), header());
                 use(writer);
             });
         };
-        const auto written = [&](const std::string& name, const std::function<void(Samples&)>& change) {
-            writer(name, [change](RecordWriter& w) {
-                Samples changed = wave();
-                change(changed);
-                w.write(changed);
-            });
-        };
+        const auto written = wrong.spoiled<Samples>([] { return wave(); },
+                                                    {{"writer_" + ending, [ending](Samples& s) {
+                                                          const TemporaryFolder folder;
+                                                          RecordWriter(folder / ("r." + ending), header()).write(s);
+                                                      }}});
         written("other_channels", [](Samples& s) { s.values.pop_back(); });
         written("more_channels", [](Samples& s) { s.values.push_back(s.times); });
         written("ragged", [](Samples& s) { s.values[1].pop_back(); });
@@ -129,18 +120,12 @@ void writers(WrongUses& wrong) {
             w.close();
         });
         wrong("writer_" + ending + "_no_folder", [ending] { RecordWriter("/nowhere/at/all/r." + ending, header()); });
-        wrong("writer_" + ending + "_no_name", [ending] {
-            const TemporaryFolder folder;
-            RecordHeader nameless = header();
-            nameless.channels[0].name.clear();
-            RecordWriter(folder / ("r." + ending), nameless);
-        });
-        wrong("writer_" + ending + "_name_twice", [ending] {
-            const TemporaryFolder folder;
-            RecordHeader twice = header();
-            twice.channels[1].name = twice.channels[0].name;
-            RecordWriter(folder / ("r." + ending), twice);
-        });
+        const auto headed = wrong.spoiled<RecordHeader>(header, {{"writer_" + ending, [ending](RecordHeader& h) {
+                                                                      const TemporaryFolder folder;
+                                                                      RecordWriter(folder / ("r." + ending), h);
+                                                                  }}});
+        headed("no_name", [](RecordHeader& h) { h.channels[0].name.clear(); });
+        headed("name_twice", [](RecordHeader& h) { h.channels[1].name = h.channels[0].name; });
         wrong("open_missing_" + ending, [ending] { open_record("/nowhere/at/all/r." + ending); });
     }
     wrong("open_folder", [] { open_record("/"); });
@@ -269,27 +254,16 @@ void experiments(WrongUses& wrong) {
         wrong("watch_section_" + name, [value = value] { RepeatWatch({0.1, 0.1}, 1, 1).add({value, 1}); });
     }
     wrong("watch_tolerance_negative", [] { RepeatWatch({-0.1}, 1, 1); });
-    for (const auto& [name, length] : wrong_lengths(2))
-        wrong("watch_section_" + name, [length = length] {
-            RepeatWatch({0.1, 0.1}, 1, 1).add(std::vector<double>(length, 1));
-        });
+    wrong("watch_section", wrong_lengths(2), [](std::size_t length) {
+        RepeatWatch({0.1, 0.1}, 1, 1).add(std::vector<double>(length, 1));
+    });
     wrong("watch_no_repeats", [] { RepeatWatch({0.1}, 0, 1); });
     wrong("watch_no_period", [] { RepeatWatch({0.1}, 1, 0); });
     wrong("watch_period_huge", [] { RepeatWatch({0.1}, 1, huge); });
 }
 
-std::vector<WrongUse> wrong_record_uses() {
-    WrongUses wrong;
-    samples(wrong);
-    writers(wrong);
-    stages(wrong);
-    estimates(wrong);
-    experiments(wrong);
-    return wrong.list();
-}
-
 TEST(WrongRecordUse, IsRefused) {
-    each_of(wrong_record_uses(), expect_refusal);
+    expect_refusals({samples, writers, stages, estimates, experiments});
 }
 
 /// Huge repetition counts must not overflow.

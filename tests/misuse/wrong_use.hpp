@@ -231,7 +231,36 @@ inline bool is_among(std::span<const std::string_view> patterns, std::string_vie
 /// Collects wrong uses under names that are valid in GoogleTest.
 class WrongUses {
 public:
-    void operator()(std::string name, std::function<void()> use) {
+    /// @param use takes nothing, or one object, which is made for it
+    template <class Use>
+    void operator()(std::string name, Use use) {
+        add(std::move(name), std::function(std::move(use)));
+    }
+    /// Adds a use for each value of a list.
+    /// @param use takes a value, or an object, which is made for it, and a value
+    template <class Value, class Use>
+    void operator()(const std::string& name, const std::vector<std::pair<std::string, Value>>& values, Use use) {
+        for (const auto& [how, value] : values)
+            add(name + "_" + how, std::function(use), value);
+    }
+    /// Returns a function that adds uses of an object with a mistake, each under its own name and that of the mistake.
+    /// @param make returns the object without a mistake
+    template <class Object>
+    auto spoiled(const std::function<Object()>& make,
+                 const std::vector<std::pair<std::string, std::function<void(Object&)>>>& uses) {
+        return [=, this](const std::string& mistake, const std::function<void(Object&)>& spoil) {
+            for (const auto& [name, use] : uses)
+                add(name + "_" + mistake, std::function([make, spoil, use = use] {
+                        Object object = make();
+                        spoil(object);
+                        use(object);
+                    }));
+        };
+    }
+    const std::vector<WrongUse>& list() const { return list_; }
+
+private:
+    void add(std::string name, std::function<void()> use) {
         for (char& c : name)
             if (!std::isalnum(static_cast<unsigned char>(c)))
                 c = '_';
@@ -244,9 +273,21 @@ public:
             name += "_again" + std::to_string(same);
         list_.push_back({std::move(name), std::move(use)});
     }
-    const std::vector<WrongUse>& list() const { return list_; }
-
-private:
+    template <class Object>
+    void add(std::string name, std::function<void(Object&)> use) {
+        add(std::move(name), std::function([use] {
+                Object object;
+                use(object);
+            }));
+    }
+    template <class Value>
+    void add(std::string name, std::function<void(Value)> use, Value value) {
+        add(std::move(name), std::function([=] { use(value); }));
+    }
+    template <class Object, class Value>
+    void add(std::string name, std::function<void(Object&, Value)> use, Value value) {
+        add(std::move(name), std::function([=](Object& object) { use(object, value); }));
+    }
     std::vector<WrongUse> list_;
 };
 
@@ -317,6 +358,14 @@ inline void each_of(const std::vector<WrongUse>& uses, const std::function<void(
             std::fprintf(stderr, "%s\n", use.name.c_str());
         visit(use);
     }
+}
+
+/// Expects that all uses that some functions add are refused.
+inline void expect_refusals(const std::vector<void (*)(WrongUses&)>& functions) {
+    WrongUses wrong;
+    for (const auto add : functions)
+        add(wrong);
+    each_of(wrong.list(), expect_refusal);
 }
 
 } // namespace graze::testing

@@ -15,45 +15,21 @@ namespace {
 Model between_walls(double stiffness, double width, double p, const char* loss = "x - width") {
     return model_from(fmt::format(R"toml(
 name = "walls"
-[parameters]
-k = {0:.17g}
-width = {1:.17g}
-p = {2:.17g}
-[states]
-x = {{ initial = "width/2" }}
-v = 1
-[modes.free]
-rates = {{ x = "v", v = 0 }}
-watch = ["right", "left"]
-[modes.right]
-rates = {{ x = "v", v = "-k*(x - width)^p" }}
-watch = ["off_right"]
-[modes.left]
-rates = {{ x = "v", v = "k*(-x)^p" }}
-watch = ["off_left"]
-[events]
-right = {{ function = "width - x", kind = "section" }}
-left = {{ function = "x", kind = "section" }}
-off_right = {{ function = "{3}", kind = "section" }}
-off_left = {{ function = "-x", kind = "section" }}
-[[transitions]]
-mode = "free"
-event = "right"
-next = "right"
-[[transitions]]
-mode = "free"
-event = "left"
-next = "left"
-[[transitions]]
-mode = "right"
-event = "off_right"
-next = "free"
-[[transitions]]
-mode = "left"
-event = "off_left"
-next = "free"
-[initial]
-mode = "free"
+parameters = {{ k = {0:.17g}, width = {1:.17g}, p = {2:.17g} }}
+states = {{ x = {{ initial = "width/2" }}, v = 1 }}
+modes.free = {{ rates = {{ x = "v", v = 0 }}, watch = ["right", "left"] }}
+modes.right = {{ rates = {{ x = "v", v = "-k*(x - width)^p" }}, watch = ["off_right"] }}
+modes.left = {{ rates = {{ x = "v", v = "k*(-x)^p" }}, watch = ["off_left"] }}
+events.right = {{ function = "width - x", kind = "section" }}
+events.left = {{ function = "x", kind = "section" }}
+events.off_right = {{ function = "{3}", kind = "section" }}
+events.off_left = {{ function = "-x", kind = "section" }}
+transitions = [
+  {{ mode = "free", event = "right", next = "right" }},
+  {{ mode = "free", event = "left", next = "left" }},
+  {{ mode = "right", event = "off_right", next = "free" }},
+  {{ mode = "left", event = "off_left", next = "free" }},
+]
 )toml",
                                   stiffness, width, p, loss));
 }

@@ -43,37 +43,19 @@ std::vector<std::size_t> passages(const Model& model, const std::vector<Probe>& 
 Model rotor(double rate = 1, double other = 1) {
     Model model = model_from(R"(
 name = "rotor"
-[parameters]
-rate = 1
-other = 1
-target = 1
+parameters = { rate = 1, other = 1, target = 1 }
+modes.only = { rates = { x = "v", v = "-x", phase = "rate", second = "other" }, watch = [] }
+sections.zero = { state = "phase", value = 0 }
+sections.target = { state = "phase", value = "target" }
+sections.second = { state = "second", value = 1 }
+sections.up = { function = "x", direction = "rising" }
+sections.down = { function = "x", direction = "falling" }
+sections.both.function = "x"
 [states]
 x = { initial = 0 }
 v = { initial = 1 }
 phase = { initial = 0, period = "2*pi" }
 second = { initial = 0, period = 3 }
-[modes.only]
-rates = { x = "v", v = "-x", phase = "rate", second = "other" }
-watch = []
-[sections.zero]
-state = "phase"
-value = 0
-[sections.target]
-state = "phase"
-value = "target"
-[sections.second]
-state = "second"
-value = 1
-[sections.up]
-function = "x"
-direction = "rising"
-[sections.down]
-function = "x"
-direction = "falling"
-[sections.both]
-function = "x"
-[initial]
-mode = "only"
 )");
     model.set_parameter("rate", rate);
     model.set_parameter("other", other);
@@ -149,21 +131,10 @@ TEST(Probe, PhasesMayTurnBack) {
     // theta' = cos(t): theta oscillates in [-1, 1]; sections at 0 and at 0.5.
     Model model = model_from(R"(
 name = "sway"
-[states]
-s = 0
-c = 1
-theta = { initial = 0, period = 1.5 }
-[modes.only]
-rates = { s = "c", c = "-s", theta = "c" }
-watch = []
-[sections.zero]
-state = "theta"
-value = 0
-[sections.half]
-state = "theta"
-value = 0.5
-[initial]
-mode = "only"
+states = { s = 0, c = 1, theta = { initial = 0, period = 1.5 } }
+modes.only = { rates = { s = "c", c = "-s", theta = "c" }, watch = [] }
+sections.zero = { state = "theta", value = 0 }
+sections.half = { state = "theta", value = 0.5 }
 )");
     Experiment experiment(model, {}, sections(model, {"zero", "half"}));
     experiment.run(2 * pi * 100 + 1);
@@ -264,43 +235,19 @@ TEST(Probe, PhasesMayJumpOntoAndPastSections) {
     // At phase 1 a jump to 2 (past the section at 1.5, which is not counted), at phase 3 back to 0 (onto a section).
     const Model model = model_from(R"(
 name = "jumps"
-[states]
-theta = { initial = 0.5, period = 4 }
-[modes.low]
-rates = { theta = 1 }
-watch = ["at_one"]
-[modes.high]
-rates = { theta = 1 }
-watch = ["at_three"]
-[events.at_one]
-function = "1 - theta"
-[events.at_three]
-function = "3 - theta"
-[jumps.forward]
-theta = 2
-[jumps.back]
-theta = 0
-[[transitions]]
-mode = "low"
-event = "at_one"
-jump = "forward"
-next = "high"
-[[transitions]]
-mode = "high"
-event = "at_three"
-jump = "back"
-next = "low"
-[sections.zero]
-state = "theta"
-value = 0
-[sections.skipped]
-state = "theta"
-value = 1.5
-[sections.passed]
-state = "theta"
-value = 2.5
-[initial]
-mode = "low"
+states = { theta = { initial = 0.5, period = 4 } }
+modes.low = { rates = { theta = 1 }, watch = ["at_one"] }
+modes.high = { rates = { theta = 1 }, watch = ["at_three"] }
+events = { at_one = "1 - theta", at_three = "3 - theta" }
+jumps.forward.theta = 2
+jumps.back.theta = 0
+transitions = [
+  { mode = "low", event = "at_one", jump = "forward", next = "high" },
+  { mode = "high", event = "at_three", jump = "back", next = "low" },
+]
+sections.zero = { state = "theta", value = 0 }
+sections.skipped = { state = "theta", value = 1.5 }
+sections.passed = { state = "theta", value = 2.5 }
 )");
     const auto count = passages(model, sections(model, {"zero", "skipped", "passed"}), 0.5 + 2 * 100 - 0.1);
     EXPECT_EQ(count, (std::vector<std::size_t>{0, 0, 100}));

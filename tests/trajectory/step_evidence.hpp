@@ -34,11 +34,8 @@ inline Family power_through_zero(int n) {
     return {"power" + std::to_string(n),
             fmt::format(R"toml(
 parameters = {{ c = 1 }}
-[states]
-y = 0
-s = 0
-[modes.m]
-rates = {{ y = "{}*c*s^{}", s = 1 }}
+states = {{ y = 0, s = 0 }}
+modes.m = {{ rates = {{ y = "{}*c*s^{}", s = 1 }} }}
 )toml",
                         n + 1, n),
             [n](Random& random) {
@@ -62,11 +59,8 @@ inline Family chirp(int n) {
     return {"chirp" + std::to_string(n),
             fmt::format(R"toml(
 parameters = {{ q = 1 }}
-[states]
-y = 0
-s = 0
-[modes.m]
-rates = {{ y = "{0}*q*(q*s)^{1}*cos((q*s)^{0})", s = 1 }}
+states = {{ y = 0, s = 0 }}
+modes.m = {{ rates = {{ y = "{0}*q*(q*s)^{1}*cos((q*s)^{0})", s = 1 }} }}
 )toml",
                         n, n - 1),
             [n](Random& random) {
@@ -92,11 +86,8 @@ inline Family steep(const std::string& name, const std::string& rate,
     return {name,
             fmt::format(R"toml(
 parameters = {{ k = 1, c = 0 }}
-[states]
-y = 0
-s = 0
-[modes.m]
-rates = {{ y = "{}", s = 1 }}
+states = {{ y = 0, s = 0 }}
+modes.m = {{ rates = {{ y = "{}", s = 1 }} }}
 )toml",
                         rate),
             [integral, steepest](Random& random) {

@@ -321,17 +321,12 @@ parameters = { g = 9.81, e = 0.6 }
 states = { x = 1, v = 0, rested = 0 }
 modes.flight = { rates = { x = "v", v = "-g", rested = 0 }, watch = ["floor"] }
 modes.rest = { rates = { x = 0, v = 0, rested = 1 } }
-events.floor = { function = "x" }
-jumps.impact = { v = "-e*v" }
+events = { floor = "x" }
+jumps.impact.v = "-e*v"
 jumps.land = { x = 0, v = 0 }
-[[transitions]]
-mode = "flight"
-event = "floor"
-jump = "impact"
-next = "flight"
-chatter = { jump = "land", mode = "rest" }
-[initial]
-mode = "flight"
+transitions = [
+  { mode = "flight", event = "floor", jump = "impact", next = "flight", chatter = { jump = "land", mode = "rest" } },
+]
 )toml");
     for (const double tolerance : {1e-8, 1e-14}) {
         const double g = 9.81, e = 0.6, h = 1, rest = std::sqrt(2 * h / g) * (1 + e) / (1 - e);

@@ -87,8 +87,7 @@ TEST(ImpactOscillator, FollowsItsClosedFormOverAThousandImpacts) {
 // ---- convergence
 
 Model from_rates(const std::string& states, const std::string& rates) {
-    return model_from("name = \"smooth\"\n[states]\n" + states + "\n[modes.only]\nrates = { " + rates +
-                      " }\nwatch = []\n[initial]\nmode = \"only\"\n");
+    return model_from("[modes.only]\nrates = { " + rates + " }\n[states]\n" + states);
 }
 
 double distance(const std::vector<double>& one, const std::vector<double>& other) {
@@ -176,36 +175,19 @@ TEST(Reversal, RetracesElasticImpacts) {
 // ---- events at the same time
 
 std::string corner(const std::string& order, const std::string& x = "0.25", const std::string& y = "0.5") {
-    return "name = \"corner\"\n[states]\nx = " + x + "\ny = " + y + R"(
-u = -1
-v = -2
-[modes.free]
-rates = { x = "u", y = "v", u = 0, v = 0 }
-watch = [)" +
-           order + R"(]
-[events.left]
-function = "x"
-[events.floor]
-function = "y"
-[jumps.off_left]
-u = "-u"
-[jumps.off_floor]
-v = "-v"
-[[transitions]]
-label = "L"
-mode = "free"
-event = "left"
-jump = "off_left"
-next = "free"
-[[transitions]]
-label = "F"
-mode = "free"
-event = "floor"
-jump = "off_floor"
-next = "free"
-[initial]
-mode = "free"
-)";
+    return fmt::format(R"(
+name = "corner"
+states = {{ x = {}, y = {}, u = -1, v = -2 }}
+modes.free = {{ rates = {{ x = "u", y = "v", u = 0, v = 0 }}, watch = [{}] }}
+events = {{ left = "x", floor = "y" }}
+jumps.off_left.u = "-u"
+jumps.off_floor.v = "-v"
+transitions = [
+  {{ label = "L", mode = "free", event = "left", jump = "off_left", next = "free" }},
+  {{ label = "F", mode = "free", event = "floor", jump = "off_floor", next = "free" }},
+]
+)",
+                       x, y, order);
 }
 
 TEST(Simultaneous, EventsAreHandledInTheOrderOfTheWatchList) {
@@ -257,15 +239,20 @@ TEST(Simultaneous, EarlierEventsComeFirstIfTimesAreResolved) {
 // ---- the start
 
 Model floor_model(const std::string& x, const std::string& v, const std::string& force, const std::string& extra = "") {
-    return model_from("name = \"floor\"\n[states]\nx = " + x + "\nv = " + v +
-                      "\n[modes.flight]\nrates = { x = \"v\", v = \"" + force +
-                      "\" }\nwatch = [\"floor\"]\n[modes.rest]\nrates = { x = 0, v = 0 }\nwatch = []\n"
-                      "[events.floor]\nfunction = \"x\"\n[jumps.impact]\nv = \"-0.5*v\"\n[jumps.land]\nx = 0\nv = 0\n"
-                      "[[transitions]]\nmode = \"flight\"\nevent = \"floor\"\njump = \"impact\"\nnext = \"flight\"\n" +
-                      extra + "[initial]\nmode = \"flight\"\n");
+    return model_from(fmt::format(R"(
+name = "floor"
+states = {{ x = {}, v = {} }}
+modes.flight = {{ rates = {{ x = "v", v = "{}" }}, watch = ["floor"] }}
+modes.rest = {{ rates = {{ x = 0, v = 0 }} }}
+events = {{ floor = "x" }}
+jumps.impact.v = "-0.5*v"
+jumps.land = {{ x = 0, v = 0 }}
+transitions = [{{ mode = "flight", event = "floor", jump = "impact", next = "flight"{} }}]
+)",
+                                  x, v, force, extra));
 }
 
-const std::string sticks = "chatter = { jump = \"land\", mode = \"rest\" }\n";
+const std::string sticks = R"(, chatter = { jump = "land", mode = "rest" })";
 
 TEST(Start, OnABarrierMovingOutIsNoContact) {
     Experiment experiment(floor_model("0", "1", "-2", sticks));
@@ -397,33 +384,17 @@ TEST(Extend, FromAnEndAtAContactRepeatsNoContact) {
 // ---- guards
 
 std::string guarded(const std::string& next) {
-    return R"(
+    return fmt::format(R"(
 name = "guarded"
-[parameters]
-limit = 1
-[states]
-x = 1
-v = { initial = -1 }
-[modes.flight]
-rates = { x = "v", v = 0 }
-watch = ["floor"]
-[modes.slow]
-rates = { x = 0, v = 0 }
-watch = []
-[events.floor]
-function = "x"
-[jumps.impact]
-v = "-v"
-[[transitions]]
-label = "landing"
-mode = "flight"
-event = "floor"
-jump = "impact"
-next = )" + next +
-           R"(
-[initial]
-mode = "flight"
-)";
+parameters = {{ limit = 1 }}
+states = {{ x = 1, v = {{ initial = -1 }} }}
+modes.flight = {{ rates = {{ x = "v", v = 0 }}, watch = ["floor"] }}
+modes.slow = {{ rates = {{ x = 0, v = 0 }}, watch = [] }}
+events.floor.function = "x"
+jumps.impact.v = "-v"
+transitions = [{{ label = "landing", mode = "flight", event = "floor", jump = "impact", next = {} }}]
+)",
+                       next);
 }
 
 TEST(Guards, ChooseTheFirstAlternativeWhoseConditionsHold) {
@@ -508,28 +479,14 @@ TEST(Endings, ChatterWithoutASticking) {
 TEST(Endings, EndlessEventsAtOneTimeMakeNoProgress) {
     const Model model = model_from(R"(
 name = "circle"
-[states]
-x = 1
-[modes.one]
-rates = { x = -1 }
-watch = ["zero"]
-[modes.other]
-rates = { x = -1 }
-watch = ["zero_too"]
-[events.zero]
-function = "x"
-[events.zero_too]
-function = "x"
-[[transitions]]
-mode = "one"
-event = "zero"
-next = "other"
-[[transitions]]
-mode = "other"
-event = "zero_too"
-next = "one"
-[initial]
-mode = "one"
+states = { x = 1 }
+modes.one = { rates = { x = -1 }, watch = ["zero"] }
+modes.other = { rates = { x = -1 }, watch = ["zero_too"] }
+events = { zero = "x", zero_too = "x" }
+transitions = [
+  { mode = "one", event = "zero", next = "other" },
+  { mode = "other", event = "zero_too", next = "one" },
+]
 )");
     expect_ending(model, Ending::no_progress, 1, {"one", "circle"});
     Experiment experiment(model);
@@ -609,19 +566,10 @@ TEST(Endings, AnEventBeforeTheSingularityEndsTheMotion) {
     // Draining a tank: x = (1 - t/2)^2 while x > 0; the event at the bottom ends the motion.
     const Model model = model_from(R"toml(
 name = "tank"
-[states]
-x = 1
-[modes.draining]
-rates = { x = "-sqrt(x)" }
-watch = ["low"]
-[events.low]
-function = "x - 1e-6"
-[[transitions]]
-mode = "draining"
-event = "low"
-next = "end"
-[initial]
-mode = "draining"
+states = { x = 1 }
+modes.draining = { rates = { x = "-sqrt(x)" }, watch = ["low"] }
+events = { low = "x - 1e-6" }
+transitions = [{ mode = "draining", event = "low", next = "end" }]
 )toml");
     expect_ending(model, Ending::terminal, 2 * (1 - 1e-3), {}, 1e-11);
 }
