@@ -43,9 +43,8 @@ void Trajectory::begin_arc(double step) {
             return;
     for (Hold& hold : holds_)
         hold.carried = hold.on;
-    for (const std::size_t event : mode.watched) {
+    for (const std::size_t event : mode.watched)
         holds_[event] = {};
-    }
     served_ = no_event;
     stuck_ = false;
     together_.clear();

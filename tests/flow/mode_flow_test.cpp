@@ -8,10 +8,7 @@
 
 #include <cmath>
 #include <limits>
-#include <span>
-#include <stdexcept>
 #include <string>
-#include <vector>
 
 namespace graze {
 namespace {

@@ -14,10 +14,8 @@
 #include <limits>
 #include <random>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <thread>
-#include <vector>
 
 namespace graze {
 namespace {
@@ -175,6 +173,7 @@ parameters = { damping = 0.1, force = 1.2, omega = 0.7 }
 states = { x = 1, v = 0, theta = { initial = 0, period = "2*pi" } }
 modes.swing = { rates = { x = "v", v = "force*cos(theta) - sin(x) - damping*v", theta = "omega" } }
 modes.fall = { rates = { x = "v", v = "force - damping*v^2", theta = "omega" } }
+initial.mode = "swing"
 )",
                        "pendulum.toml");
 }

@@ -12,7 +12,6 @@
 #include <cmath>
 #include <numbers>
 #include <string>
-#include <vector>
 
 namespace graze {
 namespace {

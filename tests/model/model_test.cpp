@@ -1,7 +1,6 @@
 #include "graze/model/model.hpp"
 
 #include "graze/base/input_error.hpp"
-#include "graze/symbolic/function.hpp"
 #include "graze/symbolic/transform.hpp"
 
 #include <gtest/gtest.h>
@@ -9,7 +8,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numbers>
 
 namespace graze {
 namespace {

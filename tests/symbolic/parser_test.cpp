@@ -1,6 +1,5 @@
 #include "graze/symbolic/parser.hpp"
 
-#include "graze/base/input_error.hpp"
 #include "graze/symbolic/function.hpp"
 #include "graze/symbolic/transform.hpp"
 

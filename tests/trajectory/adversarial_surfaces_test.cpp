@@ -18,6 +18,7 @@ modes.circle = { rates = { x = "u", y = "w" }, watch = ["circle"] }
 modes.bell = { rates = { x = "u", y = "w" }, watch = ["bell"] }
 modes.witch = { rates = { x = "u", y = "w" }, watch = ["witch"] }
 modes.waves = { rates = { x = "u", y = "w" }, watch = ["waves"] }
+initial.mode = "circle"
 events.circle = "x^2 + y^2 - limit^2"
 events.bell = "limit - exp(-k*x^2)"
 events.witch = "limit - 1/(1 + k*x^2)"

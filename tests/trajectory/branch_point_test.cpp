@@ -20,6 +20,7 @@ states = {{ x = {{ initial = "width/2" }}, v = 1 }}
 modes.free = {{ rates = {{ x = "v", v = 0 }}, watch = ["right", "left"] }}
 modes.right = {{ rates = {{ x = "v", v = "-k*(x - width)^p" }}, watch = ["off_right"] }}
 modes.left = {{ rates = {{ x = "v", v = "k*(-x)^p" }}, watch = ["off_left"] }}
+initial.mode = "free"
 events.right = {{ function = "width - x", kind = "section" }}
 events.left = {{ function = "x", kind = "section" }}
 events.off_right = {{ function = "{3}", kind = "section" }}

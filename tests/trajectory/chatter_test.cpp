@@ -83,6 +83,7 @@ parameters = { g = 1, b = 0.1, e = 0.5, height = 0 }
 states = { x = "height", v = 1, clock = 0 }
 modes.flight = { rates = { x = "v", v = "-(g - b*clock)", clock = 1 }, watch = ["floor"] }
 modes.rest = { rates = { x = 0, v = 0, clock = 1 }, watch = ["release"] }
+initial.mode = "flight"
 events = { floor = "x - height", release = "g - b*clock" }
 jumps.impact.v = "-e*v"
 jumps.land = { x = "height", v = 0 }
@@ -278,6 +279,7 @@ states = { x = 1, v = 0, slip = 0, path = 0 }
 modes.flight = { rates = { x = "v", v = -2, slip = 0, path = 0 }, watch = ["floor"] }
 modes.slipping = { rates = { x = "v", v = -2, slip = "-friction", path = "slip" }, watch = ["floor", "stop"] }
 modes.rest = { rates = { x = 0, v = 0, slip = 0, path = 0 } }
+initial.mode = "flight"
 events = { floor = "x", stop = "slip" }
 jumps.impact = { v = "-e*v", slip = "slip - v" }
 jumps.stop.slip = 0

@@ -238,6 +238,7 @@ name = "jumps"
 states = { theta = { initial = 0.5, period = 4 } }
 modes.low = { rates = { theta = 1 }, watch = ["at_one"] }
 modes.high = { rates = { theta = 1 }, watch = ["at_three"] }
+initial.mode = "low"
 events = { at_one = "1 - theta", at_three = "3 - theta" }
 jumps.forward.theta = 2
 jumps.back.theta = 0

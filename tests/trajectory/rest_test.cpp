@@ -33,6 +33,7 @@ definitions = {{ speed = "a*omega*cos(theta)", support = "g - a*omega^2*sin(thet
 events = {{ contact = "{}", release = "support" }}
 modes.flight = {{ rates = {{ x = "v", v = "-g", theta = "omega" }}, watch = ["contact"] }}
 modes.rest = {{ rates = {{ x = "speed", v = "-a*omega^2*sin(theta)", theta = "omega" }}, watch = ["release"] }}
+initial.mode = "flight"
 jumps.impact.v = "-e*v + (1 + e)*speed"
 jumps.land = {{ x = "a*sin(theta)", v = "speed" }}
 transitions = [

@@ -90,6 +90,7 @@ events = { leftwards = "x", rightwards = "-x" }
 modes.right = { rates = { x = "v", v = "-g" }, watch = ["leftwards"] }
 modes.left = { rates = { x = "v", v = "g" }, watch = ["rightwards"] }
 modes.rest = { rates = { x = 0, v = 0 } }
+initial.mode = "right"
 jumps.lose.v = "e*v"
 jumps.stop = { x = 0, v = 0 }
 )";

@@ -17,6 +17,7 @@ events = { dn = "q", up = "-q" }
 modes.pl = { rates = { q = "w", w = "p^2*(q - a)" }, watch = ["dn"] }
 modes.mi = { rates = { q = "w", w = "p^2*(q + a)" }, watch = ["up"] }
 modes.rest = { rates = { q = 0, w = 0 } }
+initial.mode = "pl"
 jumps.i.w = "r*w"
 jumps.l = { q = 0, w = 0 }
 transitions = [

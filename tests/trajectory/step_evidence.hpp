@@ -4,8 +4,6 @@
 #include "simulate.hpp"
 
 #include <functional>
-#include <map>
-#include <memory>
 
 // Motions in closed form for which steps chosen from the last coefficients are wrong: coefficients vanish, or the
 // motion is steep without warning. Each family draws its own cases.

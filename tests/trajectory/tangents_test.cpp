@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <numbers>
 
 using namespace graze;
@@ -321,6 +320,7 @@ parameters = { g = 9.81, e = 0.6 }
 states = { x = 1, v = 0, rested = 0 }
 modes.flight = { rates = { x = "v", v = "-g", rested = 0 }, watch = ["floor"] }
 modes.rest = { rates = { x = 0, v = 0, rested = 1 } }
+initial.mode = "flight"
 events = { floor = "x" }
 jumps.impact.v = "-e*v"
 jumps.land = { x = 0, v = 0 }

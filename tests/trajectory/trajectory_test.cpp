@@ -244,6 +244,7 @@ name = "floor"
 states = {{ x = {}, v = {} }}
 modes.flight = {{ rates = {{ x = "v", v = "{}" }}, watch = ["floor"] }}
 modes.rest = {{ rates = {{ x = 0, v = 0 }} }}
+initial.mode = "flight"
 events = {{ floor = "x" }}
 jumps.impact.v = "-0.5*v"
 jumps.land = {{ x = 0, v = 0 }}
@@ -390,6 +391,7 @@ parameters = {{ limit = 1 }}
 states = {{ x = 1, v = {{ initial = -1 }} }}
 modes.flight = {{ rates = {{ x = "v", v = 0 }}, watch = ["floor"] }}
 modes.slow = {{ rates = {{ x = 0, v = 0 }}, watch = [] }}
+initial.mode = "flight"
 events.floor.function = "x"
 jumps.impact.v = "-v"
 transitions = [{{ label = "landing", mode = "flight", event = "floor", jump = "impact", next = {} }}]
@@ -482,6 +484,7 @@ name = "circle"
 states = { x = 1 }
 modes.one = { rates = { x = -1 }, watch = ["zero"] }
 modes.other = { rates = { x = -1 }, watch = ["zero_too"] }
+initial.mode = "one"
 events = { zero = "x", zero_too = "x" }
 transitions = [
   { mode = "one", event = "zero", next = "other" },

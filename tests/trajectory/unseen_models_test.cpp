@@ -102,6 +102,7 @@ states = { angle = 0, rate = 0.4 }
 modes.right = { rates = { angle = "rate", rate = "4*(angle - alpha)" }, watch = ["right"] }
 modes.left = { rates = { angle = "rate", rate = "4*(angle + alpha)" }, watch = ["left"] }
 modes.rest = { rates = { angle = 0, rate = 0 } }
+initial.mode = "right"
 events = { right = "angle", left = "-angle" }
 jumps.impact = { angle = 0, rate = "r*rate" }
 jumps.settle = { angle = 0, rate = 0 }
