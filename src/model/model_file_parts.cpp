@@ -12,15 +12,6 @@
 
 namespace graze {
 
-void ModelParts::make_scope() {
-    for (const Parameter& parameter : model_.parameters)
-        scope_.emplace(parameter.name, model_.symbol(parameter.name));
-    for (const State& state : model_.states)
-        scope_.emplace(state.name, model_.symbol(state.name));
-    for (const Definition& definition : model_.definitions)
-        scope_.emplace(definition.name, model_.symbol(definition.name));
-}
-
 /// Returns an error in the value of a string (parsed as if it were a file of its own) with its place in this file.
 InputError ModelParts::inside(const TomlEntry& entry, const std::string& text, const InputError& error) const {
     const std::size_t offset = SourceText(text, "").position(error.place());

@@ -3,6 +3,7 @@
 #include "graze/base/input_errors.hpp"
 #include "graze/model/model.hpp"
 #include "graze/symbolic/parser.hpp"
+#include "model/model_expressions.hpp"
 #include "model/model_file_toml.hpp"
 #include "model/model_places.hpp"
 
@@ -24,7 +25,7 @@ protected:
         : source_(text, file), reader_(file), places_(file, &source_) {}
 
     /// Makes the names of parameters, states and definitions known to expressions.
-    void make_scope();
+    void make_scope() { scope_ = scope_of(model_); }
 
     /// Reads a number or the text of an expression. A mistake is noted, and a placeholder number returned.
     Expression expression(const TomlEntry& entry);

@@ -60,14 +60,7 @@ std::string inline_table(const Parts& parts) {
 
 class ModelWriter {
 public:
-    explicit ModelWriter(const Model& model) : model_(model), states_(model.state_symbols()) {
-        for (const Expression& symbol : states_)
-            scope_.emplace(symbol.name(), symbol);
-        for (const Parameter& parameter : model.parameters)
-            scope_.emplace(parameter.name, model.symbol(parameter.name));
-        for (const Definition& definition : model.definitions)
-            scope_.emplace(definition.name, model.symbol(definition.name));
-    }
+    explicit ModelWriter(const Model& model) : model_(model), states_(model.state_symbols()), scope_(scope_of(model)) {}
 
     std::string write() {
         line("name = {}", quoted(model_.name));
