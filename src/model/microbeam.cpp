@@ -248,8 +248,7 @@ private:
     }
 
     void add_events_and_jumps() {
-        const Expression theta = symbol("theta");
-        const Expression clearance = symbol("clearance");
+        const Expression theta = symbol("theta"), clearance = symbol("clearance");
         const double pi = std::numbers::pi;
         model_.events = {
             {"touch", "the beam meets the stop", clearance, EventKind::barrier},

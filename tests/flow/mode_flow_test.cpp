@@ -143,21 +143,5 @@ TEST(ModeFlow, FollowsFastDirectionsInPartsUpToALimit) {
     EXPECT_EQ(flow.run(0, state, 1.0, derivatives), ModeFlow::Ending::too_long);
 }
 
-TEST(ModeFlow, MisuseThrows) {
-    const System system(spring());
-    EXPECT_THROW(ModeFlow(system, 0), InputError);
-    EXPECT_THROW(ModeFlow(system, tolerance, 3), InputError);
-    EXPECT_THROW(ModeFlow(system, tolerance, 0, {ParameterId(2)}), InputError);
-    ModeFlow flow(system, tolerance);
-    std::vector<double> state{1, 0}, few{1}, derivatives(4), fewer(3);
-    EXPECT_THROW(flow.run(0, state, 1), OrderError);
-    EXPECT_THROW(flow.set_parameters(std::vector{1.0}), InputError);
-    flow.set_parameters(std::vector{7.0, 4.0});
-    EXPECT_THROW(flow.run(1, state, 1), InputError);
-    EXPECT_THROW(flow.run(0, few, 1), InputError);
-    EXPECT_THROW(flow.run(0, state, 1, fewer), InputError);
-    EXPECT_EQ(flow.run(0, state, 1, derivatives), ModeFlow::Ending::done);
-}
-
 } // namespace
 } // namespace graze

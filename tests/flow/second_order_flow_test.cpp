@@ -456,23 +456,5 @@ TEST(SecondOrderFlow, ReportsHowItEnds) {
     EXPECT_EQ(ending_of(1, 0.5, 1e308), ModeFlow::Ending::undefined);
 }
 
-TEST(SecondOrderFlow, MisuseThrows) {
-    const VariationalSystem system(System(pendulum()), {ParameterId(1)});
-    EXPECT_THROW(SecondOrderFlow(system, 0), InputError);
-    EXPECT_THROW(SecondOrderFlow(system, tolerance, 3), InputError);
-    SecondOrderFlow flow(system, tolerance);
-    Numbers state{1, 0, 0}, few{1}, vector(4, 1.0), rows(12), fewer(11);
-    EXPECT_THROW(flow.run(0, state, 1, vector, rows, rows), OrderError);
-    EXPECT_THROW(flow.set_parameters(Numbers{1.0}), InputError);
-    flow.set_parameters(system.system().model().parameter_values());
-    EXPECT_THROW(flow.run(2, state, 1, vector, rows, rows), InputError);
-    EXPECT_THROW(flow.run(0, few, 1, vector, rows, rows), InputError);
-    EXPECT_THROW(flow.run(0, state, 1, few, rows, rows), InputError);
-    EXPECT_THROW(flow.run(0, state, 1, vector, fewer, rows), InputError);
-    EXPECT_THROW(flow.run(0, state, 1, vector, rows, fewer), InputError);
-    vector[2] = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_THROW(flow.run(0, state, 1, vector, rows, rows), InputError);
-}
-
 } // namespace
 } // namespace graze

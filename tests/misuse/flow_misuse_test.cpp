@@ -213,6 +213,18 @@ void tangents(WrongUses& wrong) {
     });
     wrong("tangent_steps_begin_where_nothing_is_computed",
           [](Step& s) { s.steps.begin(s.jets(0), 0, s.state, s.matrix); });
+    wrong("tangent_steps_begin_state", wrong_lengths(3), [](Step& s, std::size_t length) {
+        s.steps.begin(s.jets.computed(0, s.state), 0, std::vector<double>(length), s.matrix);
+    });
+    wrong("tangent_steps_begin_matrix", wrong_lengths(6), [](Step& s, std::size_t length) {
+        s.steps.begin(s.jets.computed(0, s.state), 0, s.state, std::vector<double>(length));
+    });
+    wrong("tangent_steps_parameters", wrong_lengths(5), [](Step& s, std::size_t length) {
+        s.steps.set_parameters(std::vector<double>(length), std::vector<double>(10));
+    });
+    wrong("tangent_steps_directions", wrong_lengths(10), [](Step& s, std::size_t length) {
+        s.steps.set_parameters(std::vector<double>(5), std::vector<double>(length));
+    });
     wrong("tangent_steps_begin_mode", wrong_indices(1),
           [](Step& s, std::size_t mode) { s.steps.begin(s.jets.computed(0, s.state), mode, s.state, s.matrix); });
     wrong("tangent_steps_carry", wrong_lengths(2), [](Step& s, std::size_t length) {

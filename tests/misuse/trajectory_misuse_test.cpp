@@ -22,7 +22,7 @@ void wrong_trajectory_options(WrongUses& wrong) {
          {"simulation_with", [](Options& o) { keep(Simulation(System(oscillator()), {}, {}, o)); }}});
     for (const double value : {0.0, -1.0, 1.0, 1e-17, not_a_number, infinity})
         option("tolerance_" + std::to_string(value), [value](SimulationOptions& o) { o.tolerance = value; });
-    for (const int value : {-1, 1, highest_order + 1, std::numeric_limits<int>::max()})
+    for (const int value : {-1, 1, 3, highest_order + 1, std::numeric_limits<int>::max()})
         option("order_" + std::to_string(value), [value](SimulationOptions& o) { o.order = value; });
     for (const auto& [kind, value] : negative()) {
         if (value != infinity)

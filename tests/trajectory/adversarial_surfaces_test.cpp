@@ -209,10 +209,9 @@ TEST(Adversarial, TheFirstOfSeveralBarriersIsMetFirst) {
         const std::vector<double> parameters{swap ? further : nearer, swap ? nearer : further};
         observer.event = 9;
         observer.time = -1;
-        JetSet jets(simulation, LaneKind::single);
         Trajectory trajectory(simulation, parameters, borrowed(observer));
         trajectory.start(std::vector{x, v}, 0, 0, 7);
-        graze::run(trajectory, jets);
+        run(trajectory);
         LinearOscillator oscillator(0, 2, 0);
         oscillator.start(x, v, 0);
         const Real size = 2, band = band_of(simulation.options().tolerance, size, trajectory.steps()).contact;

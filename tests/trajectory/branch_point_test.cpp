@@ -85,10 +85,9 @@ TEST(BranchPoint, DerivativesPassHertzContacts) {
     const auto position = [&](double v) { return width - v * (time - 0.5 * width / v - contact_time(k, p, v)); };
     const Simulation simulation{System(between_walls(k, width, p))};
     Trajectory trajectory(simulation, simulation.model().parameter_values());
-    JetSet jets(simulation, LaneKind::single);
     trajectory.start(std::vector<double>{0.5 * width, 0.6}, 0, 0, time);
     trajectory.carry_derivatives(std::vector<std::string>{"v"});
-    run(trajectory, jets);
+    run(trajectory);
     EXPECT_NEAR(trajectory.state()[0], position(0.6), 1e-11);
     EXPECT_NEAR(trajectory.derivative(0, 0), (position(0.6 + 1e-5) - position(0.6 - 1e-5)) / 2e-5, 1e-8);
 }

@@ -219,9 +219,8 @@ TEST(Chatter, AccumulationsUnderFadingGravityAreCompletedOnlyIfReal) {
             continue;
         Watcher watcher;
         Trajectory trajectory(simulation, std::vector{1.0, b, e, height}, borrowed(watcher));
-        JetSet jets(simulation, LaneKind::single);
         trajectory.start(std::vector{height, 1.0, 0.0}, 0, 0, 3 / b);
-        graze::run(trajectory, jets);
+        run(trajectory);
         const std::string label =
             fmt::format("e={} b={} height={} tol={}", e, b, height, simulation.options().tolerance);
         // Whether the last of many impacts occurs may depend on the last digit.

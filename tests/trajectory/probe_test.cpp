@@ -32,9 +32,8 @@ std::vector<std::size_t> passages(const Model& model, const std::vector<Probe>& 
     Simulation simulation(System(model), probes, {}, options);
     Counter counter(probes.size());
     Trajectory trajectory(simulation, model.parameter_values(), borrowed(counter));
-    JetSet jets(simulation, LaneKind::single);
     trajectory.start(model.initial_state(), model.initial_mode, 0, end_time);
-    run(trajectory, jets);
+    run(trajectory);
     EXPECT_EQ(trajectory.outcome().ending, Ending::end_time) << trajectory.outcome().detail;
     return counter.count;
 }
@@ -99,8 +98,7 @@ TEST(Probe, HasOnePassageInEachPeriod) {
 TEST(Probe, StepsThatEndOnASectionCountOnce) {
     const Model model = rotor();
     for (const int parts : {1, 2, 3, 4, 7, 8, 64}) {
-        SimulationOptions options;
-        options.largest_step = 2 * pi / parts;
+        const SimulationOptions options{.largest_step = 2 * pi / parts};
         const std::size_t periods = 3000;
         const auto count = passages(model, sections(model, {"zero", "target", "up", "down", "both"}),
                                     2 * pi * static_cast<double>(periods) + 3.5, options);
@@ -120,9 +118,8 @@ TEST(Probe, PhasesMayRunBackwards) {
     EXPECT_EQ(count[0], periods); // the run starts on it
     EXPECT_EQ(count[1], periods); // the first passage is after 2 pi - 1
     EXPECT_EQ(count[2], static_cast<std::size_t>(std::floor((2.5 * (2 * pi * periods + 3.5) - 2) / 3)) + 1);
-    SimulationOptions options;
-    options.largest_step = 2 * pi / 8;
-    const auto again = passages(model, sections(model, {"zero", "target"}), 2 * pi * 1000 + 3.5, options);
+    const auto again =
+        passages(model, sections(model, {"zero", "target"}), 2 * pi * 1000 + 3.5, {.largest_step = 2 * pi / 8});
     EXPECT_EQ(again[0], 1000u);
     EXPECT_EQ(again[1], 1000u);
 }
@@ -365,14 +362,12 @@ TEST(CyclicStates, StayWithinTheirPeriodsForAMillionPeriods) {
     };
     for (const double rate : {1.0, -1.0}) {
         const Model model = rotor(rate, 0.37 * rate);
-        SimulationOptions options = with_tolerance(1e-14);
-        Simulation simulation(System(model), {}, {}, options);
+        Simulation simulation(System(model), {}, {}, with_tolerance(1e-14));
         Watch watch;
         Trajectory trajectory(simulation, model.parameter_values(), borrowed(watch));
-        JetSet jets(simulation, LaneKind::single);
         const double end = 2 * pi * 1e6 + 1;
         trajectory.start(model.initial_state(), 0, 0, end);
-        run(trajectory, jets);
+        run(trajectory);
         EXPECT_TRUE(watch.inside);
         const auto error = [](double phase, long double motion, double period) {
             const long double turns = (motion - static_cast<long double>(phase)) / static_cast<long double>(period);

@@ -86,9 +86,7 @@ TEST(Rest, BallsAtRestOnATableNeverFallThroughIt) {
         Model model = ball(gap, lands, sticks);
         const auto state = draw_ball(random, model, draw_units(random));
         const double tolerance = random.log_uniform(1e-15, 1e-6);
-        SimulationOptions options = with_tolerance(tolerance);
-        options.step_limit = 100000;
-        Experiment experiment(model, options);
+        Experiment experiment(model, {.tolerance = tolerance, .step_limit = 100000});
         const Outcome outcome = experiment.run_from(state, 0, rounds(model, 40));
         EXPECT_EQ(outcome.ending, Ending::end_time)
             << gap << " lands " << lands << " tolerance " << tolerance << ": " << outcome.detail;

@@ -27,8 +27,7 @@ public:
             seeds[i * columns_ + i] = 1;
         trajectory_.start(state, mode, 0, end_time);
         trajectory_.carry_tangents(seeds, columns_);
-        JetSet jets(simulation_, LaneKind::single);
-        graze::run(trajectory_, jets);
+        run(trajectory_);
     }
     /// Returns the derivative of a state with respect to an initial state, or (higher columns) a parameter.
     double operator()(std::size_t state, std::size_t column) const {
