@@ -310,13 +310,8 @@ private:
     }
 
     void add_transition(std::size_t mode, EventIndex event, JumpIndex jump, std::optional<std::size_t> next) {
-        Transition transition;
-        transition.label = model_.modes[mode].name + ":" + model_.events[event].name;
-        transition.mode = mode;
-        transition.event = event;
-        transition.jump = jump;
-        transition.next = {{{}, "", next}};
-        model_.transitions.push_back(std::move(transition));
+        const std::string label = model_.modes[mode].name + ":" + model_.events[event].name;
+        model_.transitions.push_back({label, mode, event, jump, {{{}, "", next}}, {}});
     }
 
     void add_transitions() {
