@@ -1,7 +1,6 @@
 #include "graze/model/check.hpp"
 
 #include "graze/base/printable.hpp"
-#include "graze/symbolic/function.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "model/check_symmetry.hpp"
 #include "model/model_expressions.hpp"

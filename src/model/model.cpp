@@ -2,7 +2,6 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
-#include "model/model_expand.hpp"
 #include "model/model_expressions.hpp"
 #include "model/model_validate.hpp"
 

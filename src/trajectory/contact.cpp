@@ -4,7 +4,6 @@
 
 #include "flow/guard.hpp"
 #include "trajectory/probe_tracker.hpp"
-#include "trajectory/series.hpp"
 #include "trajectory/tangents.hpp"
 
 #include <fmt/format.h>

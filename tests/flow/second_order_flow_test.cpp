@@ -1,6 +1,5 @@
 #include "graze/flow/second_order_flow.hpp"
 
-#include "graze/base/input_error.hpp"
 #include "graze/model/model_file.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "graze/symbolic/transform.hpp"

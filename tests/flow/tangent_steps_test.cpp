@@ -1,6 +1,5 @@
 #include "graze/flow/tangent_steps.hpp"
 
-#include "graze/base/input_error.hpp"
 #include "graze/flow/mode_flow.hpp"
 #include "graze/flow/variational_system.hpp"
 #include "graze/model/model_file.hpp"

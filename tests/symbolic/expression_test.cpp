@@ -1,6 +1,5 @@
 #include "graze/symbolic/expression.hpp"
 
-#include "graze/base/input_error.hpp"
 #include "graze/symbolic/function.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "symbolic/operation_list.hpp"
@@ -8,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 namespace graze {
 namespace {
