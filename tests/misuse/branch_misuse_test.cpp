@@ -45,11 +45,10 @@ void problems(WrongUses& wrong) {
         wrong("dense_problem_scales_" + std::to_string(length),
               [length] { keep(DenseProblem(2, residual, {}, std::vector<double>(length, 1.0))); });
     wrong("dense_problem_scale", not_positive(), [](double v) { keep(DenseProblem(2, residual, {}, {1, v})); });
-    for (const auto& [kind, length] : wrong_lengths(2)) {
-        wrong("dense_evaluate_" + kind, [n = length] { keep(Circle().problem.evaluate(std::vector<double>(n, 1.0))); });
-        wrong("dense_solve_row_" + kind, [n = length](Circle& c) { c.evaluated().solve(n, 2); });
-        wrong("dense_solve_step_" + kind, [n = length](Circle& c) { c.evaluated().solve(2, n); });
-    }
+    wrong("dense_evaluate", wrong_lengths(2),
+          [](std::size_t n) { keep(Circle().problem.evaluate(std::vector<double>(n, 1.0))); });
+    wrong("dense_solve_row", wrong_lengths(2), [](Circle& c, std::size_t n) { c.evaluated().solve(n, 2); });
+    wrong("dense_solve_step", wrong_lengths(2), [](Circle& c, std::size_t n) { c.evaluated().solve(2, n); });
     wrong("dense_solve_before_evaluate", [](Circle& c) { c.solve(2, 2); });
 }
 
@@ -77,47 +76,43 @@ void continuations(WrongUses& wrong) {
     option("iterations_0", [](ContinuationOptions& o) { o.iterations = 0; });
     option("smallest_step_above_largest", [](ContinuationOptions& o) { o.smallest_step = 1; });
 
-    const auto of = [&](const std::string& name, const auto& use) { wrong("continuation_" + name, use); };
-    for (const auto& [kind, length] : wrong_lengths(2)) {
-        of("start_u_" + kind, [n = length](Circle& c) { keep(c.continuation.start(Values(n, 1.0), 0, 1)); });
-        of("along_u_" + kind, [n = length](Circle& c) {
-            keep(c.continuation.start_along(Values(n, 1.0), Values{0, 1}, 0.1));
-        });
-        of("along_direction_" + kind,
-           [n = length](Circle& c) { keep(c.continuation.start_along(c.point, Values(n, 1.0), 0.1)); });
-        of("at_u_" + kind, [n = length](Circle& c) { keep(c.continuation.start_at(Values(n, 1.0), Values{0, 1})); });
-        of("at_row_" + kind, [n = length](Circle& c) { keep(c.continuation.start_at(c.point, Values(n, 1.0))); });
-    }
-    for (const auto& [kind, index] : wrong_indices(2))
-        of("start_unknown_" + kind, [i = index](Circle& c) { keep(c.continuation.start(c.point, i, 1)); });
+    const auto of = [&](const std::string& name, const auto&... use) { wrong("continuation_" + name, use...); };
+    of("start_u", wrong_lengths(2), [](Circle& c, std::size_t n) { keep(c.continuation.start(Values(n, 1.0), 0, 1)); });
+    of("along_u", wrong_lengths(2), [](Circle& c, std::size_t n) {
+        keep(c.continuation.start_along(Values(n, 1.0), Values{0, 1}, 0.1));
+    });
+    of("along_direction", wrong_lengths(2),
+       [](Circle& c, std::size_t n) { keep(c.continuation.start_along(c.point, Values(n, 1.0), 0.1)); });
+    of("at_u", wrong_lengths(2), [](Circle& c, std::size_t n) {
+        keep(c.continuation.start_at(Values(n, 1.0), Values{0, 1}));
+    });
+    of("at_row", wrong_lengths(2),
+       [](Circle& c, std::size_t n) { keep(c.continuation.start_at(c.point, Values(n, 1.0))); });
+    of("start_unknown", wrong_indices(2), [](Circle& c, std::size_t i) { keep(c.continuation.start(c.point, i, 1)); });
     of("start_direction_0", [](Circle& c) { keep(c.continuation.start(c.point, 1, 0)); });
-    for (const auto& [kind, value] : not_finite()) {
-        of("start_" + kind, [v = value](Circle& c) { keep(c.continuation.start(Values{1, v}, 1, 1)); });
-        of("along_" + kind, [v = value](Circle& c) {
-            keep(c.continuation.start_along(Values{1, v}, Values{0, 1}, 0.1));
-        });
-        of("along_direction_" + kind, [v = value](Circle& c) {
-            keep(c.continuation.start_along(c.point, Values{0, v}, 0.1));
-        });
-        of("along_distance_" + kind, [v = value](Circle& c) {
-            keep(c.continuation.start_along(c.point, Values{0, 1}, v));
-        });
-        of("at_" + kind, [v = value](Circle& c) { keep(c.continuation.start_at(Values{1, v}, Values{0, 1})); });
-        of("at_row_" + kind, [v = value](Circle& c) { keep(c.continuation.start_at(c.point, Values{0, v})); });
-        of("between_" + kind, [v = value](Circle& c) {
-            c.started().step();
-            ContinuationPoint point;
-            keep(c.continuation.between(v, point));
-        });
-    }
+    of("start", not_finite(), [](Circle& c, double v) { keep(c.continuation.start(Values{1, v}, 1, 1)); });
+    of("along", not_finite(), [](Circle& c, double v) {
+        keep(c.continuation.start_along(Values{1, v}, Values{0, 1}, 0.1));
+    });
+    of("along_direction", not_finite(), [](Circle& c, double v) {
+        keep(c.continuation.start_along(c.point, Values{0, v}, 0.1));
+    });
+    of("along_distance", not_finite(), [](Circle& c, double v) {
+        keep(c.continuation.start_along(c.point, Values{0, 1}, v));
+    });
+    of("at", not_finite(), [](Circle& c, double v) { keep(c.continuation.start_at(Values{1, v}, Values{0, 1})); });
+    of("at_row", not_finite(), [](Circle& c, double v) { keep(c.continuation.start_at(c.point, Values{0, v})); });
+    of("between", not_finite(), [](Circle& c, double v) {
+        c.started().step();
+        ContinuationPoint point;
+        keep(c.continuation.between(v, point));
+    });
     of("along_direction_zero", [](Circle& c) { keep(c.continuation.start_along(c.point, Values{0, 0}, 0.1)); });
     of("along_distance_negative", [](Circle& c) { keep(c.continuation.start_along(c.point, Values{0, 1}, -1)); });
     of("at_row_zero", [](Circle& c) { keep(c.continuation.start_at(c.point, Values{0, 0})); });
     of("step_before_start", [](Circle& c) { keep(c.continuation.step()); });
-    for (const auto& [kind, value] : not_positive()) {
-        of("next_step_" + kind, [v = value](Circle& c) { c.started().set_next_step(v); });
-        of("next_step_before_start_" + kind, [v = value](Circle& c) { c.continuation.set_next_step(v); });
-    }
+    of("next_step", not_positive(), [](Circle& c, double v) { c.started().set_next_step(v); });
+    of("next_step_before_start", not_positive(), [](Circle& c, double v) { c.continuation.set_next_step(v); });
     for (const double fraction : {-1.0, 2.0})
         of("between_" + std::to_string(fraction), [fraction](Circle& c) {
             c.started().step();
@@ -141,13 +136,11 @@ void settings(WrongUses& wrong) {
         {{"branch_settings", [](BranchSettings& s) { s.validate(oscillator()); }},
          {"orbit_branch", [](BranchSettings& s) { keep(OrbitBranch(System(calm_oscillator()), calm_orbit(), s)); }},
          {"branches_at", [](BranchSettings& s) { keep(branches_at(System(calm_oscillator()), grazing_point(), s)); }}});
-    for (const auto& [kind, index] : wrong_indices(5)) {
-        setting("parameter_" + kind, [i = index](BranchSettings& s) { s.parameter = ParameterId(i); });
-        setting("free_" + kind, [i = index](BranchSettings& s) {
-            s.monitors = {{.name = "period", .fixed = true}};
-            s.free = {ParameterId(i)};
-        });
-    }
+    setting("parameter", wrong_indices(5), [](BranchSettings& s, std::size_t i) { s.parameter = ParameterId(i); });
+    setting("free", wrong_indices(5), [](BranchSettings& s, std::size_t i) {
+        s.monitors = {{.name = "period", .fixed = true}};
+        s.free = {ParameterId(i)};
+    });
     for (const int direction : {0, 2, -7})
         setting("direction_" + std::to_string(direction), [direction](BranchSettings& s) { s.direction = direction; });
     setting("bounds_reversed", [](BranchSettings& s) {
@@ -241,18 +234,16 @@ void branches(WrongUses& wrong) {
     }
     branch("along_no_parameter", [](OrbitBranch& b) { keep(b.start_along({{{0, 0, 0}}, {0}, {}}, 0.01)); });
     branch("along_two_parameters", [](OrbitBranch& b) { keep(b.start_along({{{0, 0, 0}}, {0}, {1, 1}}, 0.01)); });
-    for (const auto& [kind, value] : not_finite()) {
-        branch("along_start_" + kind, [v = value](OrbitBranch& b) {
-            keep(b.start_along({{{0, v, 0}}, {0}, {1}}, 0.01));
-        });
-        branch("along_duration_" + kind, [v = value](OrbitBranch& b) {
-            keep(b.start_along({{{0, 0, 0}}, {v}, {1}}, 0.01));
-        });
-        branch("along_parameter_" + kind, [v = value](OrbitBranch& b) {
-            keep(b.start_along({{{0, 0, 0}}, {0}, {v}}, 0.01));
-        });
-        branch("along_distance_" + kind, [along, v = value](OrbitBranch& b) { keep(b.start_along(along, v)); });
-    }
+    branch("along_start", not_finite(), [](OrbitBranch& b, double v) {
+        keep(b.start_along({{{0, v, 0}}, {0}, {1}}, 0.01));
+    });
+    branch("along_duration", not_finite(), [](OrbitBranch& b, double v) {
+        keep(b.start_along({{{0, 0, 0}}, {v}, {1}}, 0.01));
+    });
+    branch("along_parameter", not_finite(), [](OrbitBranch& b, double v) {
+        keep(b.start_along({{{0, 0, 0}}, {0}, {v}}, 0.01));
+    });
+    branch("along_distance", not_finite(), [along](OrbitBranch& b, double v) { keep(b.start_along(along, v)); });
     branch("along_nothing", [](OrbitBranch& b) { keep(b.start_along({{{0, 0, 0}}, {0}, {0}}, 0.01)); });
     branch("along_distance_negative", [along](OrbitBranch& b) { keep(b.start_along(along, -1)); });
     const auto moved = [&](const std::string& name, const std::function<void(OrbitBranch&)>& use) {
@@ -285,12 +276,9 @@ void branches(WrongUses& wrong) {
         grazing_point, {{"branches_at_grazing", [](SpecialPoint& point) {
                              keep(branches_at(System(calm_oscillator()), point, by_amplitude()));
                          }}});
-    for (const auto& [kind, index] : wrong_indices(1))
-        grazing("segment_" + kind, [i = index](SpecialPoint& p) { p.segment = i; });
-    for (const auto& [kind, index] : wrong_indices(2))
-        grazing("event_" + kind, [i = index](SpecialPoint& p) { p.event = i; });
-    for (const auto& [kind, value] : not_finite())
-        grazing("time_" + kind, [v = value](SpecialPoint& p) { p.time = v; });
+    grazing("segment", wrong_indices(1), [](SpecialPoint& p, std::size_t i) { p.segment = i; });
+    grazing("event", wrong_indices(2), [](SpecialPoint& p, std::size_t i) { p.event = i; });
+    grazing("time", not_finite(), [](SpecialPoint& p, double v) { p.time = v; });
     grazing("time_negative", [](SpecialPoint& p) { p.time = -1; });
     grazing("time_after_the_end", [](SpecialPoint& p) { p.time = 1e6; });
     grazing("signature_empty", [](SpecialPoint& p) { p.solution.orbit.signature.clear(); });

@@ -388,8 +388,7 @@ void second_order_flows(WrongUses& wrong) {
         for (const auto& [how, length] : wrong_lengths((right.*numbers).size()))
             run(name + "_" + how,
                 [numbers = numbers, length = length](SecondOrderRun& r) { (r.*numbers).resize(length); });
-    for (const auto& [how, index] : wrong_indices(oscillator().modes.size()))
-        run("run_" + how, [index = index](SecondOrderRun& r) { r.mode = index; });
+    run("run", wrong_indices(oscillator().modes.size()), [](SecondOrderRun& r, std::size_t index) { r.mode = index; });
     for (const double component : {not_a_number, infinity})
         run("vector_" + std::to_string(component), [component](SecondOrderRun& r) { r.vector[1] = component; });
     wrong("second_order_before_parameters",

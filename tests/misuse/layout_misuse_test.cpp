@@ -64,10 +64,8 @@ void drawings(WrongUses& wrong) {
         stream("text_at_" + std::to_string(far), [far](LayoutLibrary& l) { l.cells[0].texts[0].at.y = far; });
         stream("reference_at_" + std::to_string(far), [far](LayoutLibrary& l) { l.cells[1].references[0].at.x = far; });
     }
-    for (const auto& [name, value] : not_finite()) {
-        stream("text_height_" + name, [value = value](LayoutLibrary& l) { l.cells[0].texts[0].height = value; });
-        stream("angle_" + name, [value = value](LayoutLibrary& l) { l.cells[1].references[0].degrees = value; });
-    }
+    stream("text_height", not_finite(), [](LayoutLibrary& l, double value) { l.cells[0].texts[0].height = value; });
+    stream("angle", not_finite(), [](LayoutLibrary& l, double value) { l.cells[1].references[0].degrees = value; });
     stream("text_height_too_large", [](LayoutLibrary& l) { l.cells[0].texts[0].height = 1e100; });
     stream("angle_too_large", [](LayoutLibrary& l) { l.cells[1].references[0].degrees = -1e100; });
     wrong("flattened_unknown", [] { keep(flattened(library(), "nothing")); });
@@ -76,28 +74,30 @@ void drawings(WrongUses& wrong) {
 
 void parts(WrongUses& wrong) {
     const Gas air{101'325, 1.8e-5, 6.8e-8};
-    for (const auto& [name, value] : not_positive()) {
-        wrong("capacitance_height_" + name, [value = value] { keep(capacitance_by_length(value, 1e-6, 1e-6)); });
-        wrong("capacitance_gap_" + name, [value = value] { keep(capacitance_by_length(1e-6, value, 1e-6)); });
-        wrong("plates_length_" + name, [value = value] { keep(equivalent_plates({value, 1e-5, 1e-5, {1e-6, 1e-6}})); });
-        wrong("plates_gap_" + name, [value = value] { keep(equivalent_plates({1e-4, 1e-5, 1e-5, {1e-6, value}})); });
-        wrong("plates_gap_top_" + name, [value = value] {
-            keep(equivalent_plates({1e-4, 1e-5, 1e-5, {value, 1e-6}}));
-        });
-        wrong("film_length_" + name, [value = value, air] {
-            keep(squeeze_film_damping({value, 1e-5, {1e-6, 1e-6}}, air));
-        });
-        wrong("film_gap_" + name, [value = value, air] {
-            keep(squeeze_film_damping({1e-4, 1e-5, {value, 1e-6}}, air));
-        });
-        wrong("film_gap_bottom_" + name, [value = value, air] {
-            keep(squeeze_film_damping({1e-4, 1e-5, {1e-6, value}}, air));
-        });
-        wrong("viscosity_gap_" + name, [value = value, air] { keep(effective_viscosity(air, value)); });
-        wrong("viscosity_pressure_" + name, [value = value] {
-            keep(effective_viscosity({value, 1.8e-5, 6.8e-8}, 1e-6));
-        });
-    }
+    wrong("capacitance_height", not_positive(), [](double value) { keep(capacitance_by_length(value, 1e-6, 1e-6)); });
+    wrong("capacitance_gap", not_positive(), [](double value) { keep(capacitance_by_length(1e-6, value, 1e-6)); });
+    wrong("plates_length", not_positive(), [](double value) {
+        keep(equivalent_plates({value, 1e-5, 1e-5, {1e-6, 1e-6}}));
+    });
+    wrong("plates_gap", not_positive(), [](double value) {
+        keep(equivalent_plates({1e-4, 1e-5, 1e-5, {1e-6, value}}));
+    });
+    wrong("plates_gap_top", not_positive(), [](double value) {
+        keep(equivalent_plates({1e-4, 1e-5, 1e-5, {value, 1e-6}}));
+    });
+    wrong("film_length", not_positive(), [air](double value) {
+        keep(squeeze_film_damping({value, 1e-5, {1e-6, 1e-6}}, air));
+    });
+    wrong("film_gap", not_positive(), [air](double value) {
+        keep(squeeze_film_damping({1e-4, 1e-5, {value, 1e-6}}, air));
+    });
+    wrong("film_gap_bottom", not_positive(), [air](double value) {
+        keep(squeeze_film_damping({1e-4, 1e-5, {1e-6, value}}, air));
+    });
+    wrong("viscosity_gap", not_positive(), [air](double value) { keep(effective_viscosity(air, value)); });
+    wrong("viscosity_pressure", not_positive(), [](double value) {
+        keep(effective_viscosity({value, 1.8e-5, 6.8e-8}, 1e-6));
+    });
     wrong("spring_of_nothing", [] { keep(properties_of(FoldedSpring())); });
     for (const int mask : {0, 3, -1})
         wrong("mask_" + std::to_string(mask),
@@ -129,14 +129,12 @@ Table table() {
 }
 
 void tables(WrongUses& wrong) {
-    for (const auto& [name, index] : wrong_indices(2)) {
-        wrong("table_number_row_" + name, [index = index] { keep(table().number(index, 0)); });
-        wrong("table_number_column_" + name, [index = index] { keep(table().number(0, index)); });
-        wrong("table_text_row_" + name, [index = index] { keep(std::string(table().text(index, 1))); });
-        wrong("table_text_column_" + name, [index = index] { keep(std::string(table().text(0, index))); });
-        wrong("table_is_text_row_" + name, [index = index] { keep(table().is_text(index, 0)); });
-        wrong("table_is_missing_column_" + name, [index = index] { keep(table().is_missing(0, index)); });
-    }
+    wrong("table_number_row", wrong_indices(2), [](std::size_t index) { keep(table().number(index, 0)); });
+    wrong("table_number_column", wrong_indices(2), [](std::size_t index) { keep(table().number(0, index)); });
+    wrong("table_text_row", wrong_indices(2), [](std::size_t index) { keep(std::string(table().text(index, 1))); });
+    wrong("table_text_column", wrong_indices(2), [](std::size_t index) { keep(std::string(table().text(0, index))); });
+    wrong("table_is_text_row", wrong_indices(2), [](std::size_t index) { keep(table().is_text(index, 0)); });
+    wrong("table_is_missing_column", wrong_indices(2), [](std::size_t index) { keep(table().is_missing(0, index)); });
     wrong("table_text_of_number", [] { keep(std::string(table().text(0, 0))); });
     wrong("table_of_no_columns", [] { keep(Table().number(0, 0)); });
 }

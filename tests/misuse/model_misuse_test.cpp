@@ -101,22 +101,21 @@ void defective_models(WrongUses& wrong) {
     model("quantity_nothing", [](Model& m) { m.quantities[0].value = {}; });
     model("quantity_unknown", [](Model& m) { m.quantities[0].value = m.symbol("unknown"); });
     model("all_of_moved_model", [](Model& m) { const Model moved = std::move(m); });
-    for (const auto& [kind, index] : wrong_indices(2)) {
-        model("watched_" + kind, [i = index](Model& m) { m.modes[0].watched = {i}; });
-        model("transition_mode_" + kind, [i = index](Model& m) { m.transitions[0].mode = i; });
-        model("transition_event_" + kind, [i = index](Model& m) { m.transitions[0].event = i; });
-        model("transition_jump_" + kind, [i = index](Model& m) { m.transitions[0].jump = i < 4 ? i + 1 : i; });
-        model("next_mode_" + kind, [i = index](Model& m) { m.transitions[0].next[0].mode = i; });
-        model("chatter_mode_" + kind, [i = index](Model& m) { m.transitions[0].chatter = Sticking{2, i}; });
-        model("chatter_jump_" + kind, [i = index](Model& m) {
-            m.transitions[0].chatter = Sticking{i < 4 ? i + 1 : i, 1};
-        });
-        model("section_state_" + kind, [i = index](Model& m) { m.sections[0].state = i < 4 ? i + 1 : i; });
-        model("symmetry_mode_" + kind, [i = index](Model& m) {
-            m.symmetries = {{.name = "s", .map = m.state_symbols(), .modes = {0, i}}};
-        });
-        model("initial_mode_" + kind, [i = index](Model& m) { m.initial_mode = i; });
-    }
+    model("watched", wrong_indices(2), [](Model& m, std::size_t i) { m.modes[0].watched = {i}; });
+    model("transition_mode", wrong_indices(2), [](Model& m, std::size_t i) { m.transitions[0].mode = i; });
+    model("transition_event", wrong_indices(2), [](Model& m, std::size_t i) { m.transitions[0].event = i; });
+    model("transition_jump", wrong_indices(2),
+          [](Model& m, std::size_t i) { m.transitions[0].jump = i < 4 ? i + 1 : i; });
+    model("next_mode", wrong_indices(2), [](Model& m, std::size_t i) { m.transitions[0].next[0].mode = i; });
+    model("chatter_mode", wrong_indices(2), [](Model& m, std::size_t i) { m.transitions[0].chatter = Sticking{2, i}; });
+    model("chatter_jump", wrong_indices(2), [](Model& m, std::size_t i) {
+        m.transitions[0].chatter = Sticking{i < 4 ? i + 1 : i, 1};
+    });
+    model("section_state", wrong_indices(2), [](Model& m, std::size_t i) { m.sections[0].state = i < 4 ? i + 1 : i; });
+    model("symmetry_mode", wrong_indices(2), [](Model& m, std::size_t i) {
+        m.symmetries = {{.name = "s", .map = m.state_symbols(), .modes = {0, i}}};
+    });
+    model("initial_mode", wrong_indices(2), [](Model& m, std::size_t i) { m.initial_mode = i; });
 }
 
 void moved_models(WrongUses& wrong) {

@@ -52,28 +52,21 @@ void defective_orbits(WrongUses& wrong) {
     orbit("symmetry_0", [](Orbit& o) { o.symmetry = 0; });
     orbit("symmetry_1", [](Orbit& o) { o.symmetry = 1; });
     orbit("symmetry_huge", [](Orbit& o) { o.symmetry = huge; });
-    for (const auto& [kind, length] : wrong_lengths(5))
-        orbit("parameters_" + kind, [n = length](Orbit& o) { o.parameters.resize(n); });
-    for (const auto& [kind, length] : wrong_lengths(3))
-        orbit("start_" + kind, [n = length](Orbit& o) { o.starts[0].resize(n); });
-    for (const auto& [kind, value] : not_finite()) {
-        orbit("parameter_" + kind, [v = value](Orbit& o) { o.parameters[0] = v; });
-        orbit("start_" + kind, [v = value](Orbit& o) { o.starts[0][1] = v; });
-        orbit("duration_" + kind, [v = value](Orbit& o) { o.durations[0] = v; });
-    }
-    for (const auto& [kind, index] : wrong_indices(2)) {
-        orbit("mode_" + kind, [i = index](Orbit& o) { o.signature[0].mode = i; });
-        orbit("section_" + kind, [i = index](Orbit& o) { o.signature[0].index = i; });
-        orbit("transition_" + kind, [i = index](Orbit& o) { o.signature[0] = {.end = SegmentEnd::event, .index = i}; });
-    }
+    orbit("parameters", wrong_lengths(5), [](Orbit& o, std::size_t n) { o.parameters.resize(n); });
+    orbit("start", wrong_lengths(3), [](Orbit& o, std::size_t n) { o.starts[0].resize(n); });
+    orbit("parameter", not_finite(), [](Orbit& o, double v) { o.parameters[0] = v; });
+    orbit("start", not_finite(), [](Orbit& o, double v) { o.starts[0][1] = v; });
+    orbit("duration", not_finite(), [](Orbit& o, double v) { o.durations[0] = v; });
+    orbit("mode", wrong_indices(2), [](Orbit& o, std::size_t i) { o.signature[0].mode = i; });
+    orbit("section", wrong_indices(2), [](Orbit& o, std::size_t i) { o.signature[0].index = i; });
+    orbit("transition", wrong_indices(2),
+          [](Orbit& o, std::size_t i) { o.signature[0] = {.end = SegmentEnd::event, .index = i}; });
     // With an orbit of the symmetric model: half orbits have more requirements than whole ones.
     const Orbit right = right_orbit();
-    for (const auto& [kind, index] : wrong_indices(symmetric_oscillator().symmetries.size())) {
-        wrong("image_under_symmetry_" + kind,
-              [right, i = index] { keep(image_of(System(symmetric_oscillator()), i, right.signature[0], right)); });
-        wrong("validate_signature_symmetry_" + kind,
-              [right, i = index] { validate_signature(symmetric_oscillator(), right.signature, {}, i); });
-    }
+    wrong("image_under_symmetry", wrong_indices(symmetric_oscillator().symmetries.size()),
+          [right](std::size_t i) { keep(image_of(System(symmetric_oscillator()), i, right.signature[0], right)); });
+    wrong("validate_signature_symmetry", wrong_indices(symmetric_oscillator().symmetries.size()),
+          [right](std::size_t i) { validate_signature(symmetric_oscillator(), right.signature, {}, i); });
 }
 
 void signatures(WrongUses& wrong) {
@@ -118,8 +111,7 @@ void wrong_orbit_options(WrongUses& wrong) {
           }}});
     for (const double value : {0.0, -1.0, 1.0, 1e-17, not_a_number, infinity})
         option("tolerance_" + std::to_string(value), [value](Options& o) { o.tolerance = value; });
-    for (const auto& [kind, value] : not_positive())
-        option("accuracy_" + kind, [v = value](Options& o) { o.accuracy = v; });
+    option("accuracy", not_positive(), [](Options& o, double v) { o.accuracy = v; });
     option("iterations_0", [](Options& o) { o.iterations = 0; });
     wrong("find_orbit_simulation_options",
           [] { keep(find_orbit(System(calm_oscillator()), by_phase(), {}, {.tolerance = not_a_number})); });
@@ -152,18 +144,13 @@ void motions(WrongUses& wrong) {
                                                            keep(follow_motion(Simulation(System(oscillator())),
                                                                               g.parameters, g.state, g.mode, g.time));
                                                        }}});
-    for (const auto& [kind, length] : wrong_lengths(5))
-        motion("parameters_" + kind, [n = length](Given& g) { g.parameters.resize(n); });
-    for (const auto& [kind, length] : wrong_lengths(3))
-        motion("state_" + kind, [n = length](Given& g) { g.state.resize(n); });
-    for (const auto& [kind, value] : not_finite()) {
-        motion("parameter_" + kind, [v = value](Given& g) { g.parameters[0] = v; });
-        motion("state_" + kind, [v = value](Given& g) { g.state[0] = v; });
-        motion("time_" + kind, [v = value](Given& g) { g.time = v; });
-    }
+    motion("parameters", wrong_lengths(5), [](Given& g, std::size_t n) { g.parameters.resize(n); });
+    motion("state", wrong_lengths(3), [](Given& g, std::size_t n) { g.state.resize(n); });
+    motion("parameter", not_finite(), [](Given& g, double v) { g.parameters[0] = v; });
+    motion("state", not_finite(), [](Given& g, double v) { g.state[0] = v; });
+    motion("time", not_finite(), [](Given& g, double v) { g.time = v; });
     motion("time_negative", [](Given& g) { g.time = -1; });
-    for (const auto& [kind, index] : wrong_indices(2))
-        motion("mode_" + kind, [i = index](Given& g) { g.mode = i; });
+    motion("mode", wrong_indices(2), [](Given& g, std::size_t i) { g.mode = i; });
     for (const std::string table : {"", "t,x,v,theta\n", "segment,t,x,v\n1,0,0,0\n", "segment,t,x,v,theta\n",
                                     "segment,t,x,v,theta\n1,0,0,0,0\n", "segment,t,x,v,theta\n1,0,0,0,0\n1,nan,0,0,0\n",
                                     "segment,t,x,v,theta\n1,1,0,0,0\n1,0,0,0,0\n", "segment,t,x,v,theta\n2,0,0,0,0\n",

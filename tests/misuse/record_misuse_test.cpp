@@ -79,10 +79,8 @@ void samples(WrongUses& wrong) {
     stored("other_channels", [](Samples& s) { s.values.pop_back(); });
     stored("ragged", [](Samples& s) { s.values[0].pop_back(); });
     stored("times_fall", [](Samples& s) { s.times[3] = s.times[2]; });
-    for (const auto& [name, value] : not_finite()) {
-        stored("time_" + name, [value = value](Samples& s) { s.times[3] = value; });
-        stored("value_" + name, [value = value](Samples& s) { s.values[1][3] = value; });
-    }
+    stored("time", not_finite(), [](Samples& s, double value) { s.times[3] = value; });
+    stored("value", not_finite(), [](Samples& s, double value) { s.values[1][3] = value; });
     wrong("channel_unknown", [] { keep(header().channel("y", "me")); });
     wrong("channel_time", [] { keep(header().channel("t", "me")); });
     wrong("read_all_too_many", [] {
@@ -107,10 +105,8 @@ void writers(WrongUses& wrong) {
         written("other_channels", [](Samples& s) { s.values.pop_back(); });
         written("more_channels", [](Samples& s) { s.values.push_back(s.times); });
         written("ragged", [](Samples& s) { s.values[1].pop_back(); });
-        for (const auto& [name, value] : not_finite()) {
-            written("time_" + name, [value = value](Samples& s) { s.times[1] = value; });
-            written("value_" + name, [value = value](Samples& s) { s.values[0][1] = value; });
-        }
+        written("time", not_finite(), [](Samples& s, double value) { s.times[1] = value; });
+        written("value", not_finite(), [](Samples& s, double value) { s.values[0][1] = value; });
         writer("write_after_close", [](RecordWriter& w) {
             w.close();
             w.write(wave());
@@ -211,28 +207,24 @@ void estimates(WrongUses& wrong) {
     wrong("coupling_of_nothing", [] { coupling({}, {.gap = 1, .stiffness = 1}); });
     wrong("impedance_of_nothing", [] { impedance({}, {}, {}); });
     wrong("impedance_ragged", [] { impedance(wave().times, wave().values[0], std::vector<double>(3, 1)); });
-    for (const auto& [name, value] : not_finite()) {
-        wrong("residuals_" + name, [value = value] { test_residuals(std::vector<double>{1, value, 3}); });
-        wrong("restitution_" + name, [value = value] {
-            restitution(std::vector<ImpactSpeeds>{{-1, 1}, {value, 1}, {-2, 2}});
-        });
-        wrong("coupling_" + name, [value = value] {
-            coupling(std::vector<StaticLoad>{{1, 1}, {2, value}, {3, 3}, {4, 5}}, {.gap = 10, .stiffness = 1});
-        });
-        wrong("impedance_" + name, [value = value] {
-            std::vector<double> voltage = wave().values[0];
-            voltage[7] = value;
-            impedance(wave().times, voltage, wave().values[1]);
-        });
-    }
-    for (const auto& [name, value] : not_positive()) {
-        wrong("coupling_gap_" + name, [value = value] {
-            coupling(std::vector<StaticLoad>{{0.1, 1}, {0.2, 2}, {0.3, 3}}, {.gap = value, .stiffness = 1});
-        });
-        wrong("coupling_stiffness_" + name, [value = value] {
-            coupling(std::vector<StaticLoad>{{0.1, 1}, {0.2, 2}, {0.3, 3}}, {.gap = 1, .stiffness = value});
-        });
-    }
+    wrong("residuals", not_finite(), [](double value) { test_residuals(std::vector<double>{1, value, 3}); });
+    wrong("restitution", not_finite(), [](double value) {
+        restitution(std::vector<ImpactSpeeds>{{-1, 1}, {value, 1}, {-2, 2}});
+    });
+    wrong("coupling", not_finite(), [](double value) {
+        coupling(std::vector<StaticLoad>{{1, 1}, {2, value}, {3, 3}, {4, 5}}, {.gap = 10, .stiffness = 1});
+    });
+    wrong("impedance", not_finite(), [](double value) {
+        std::vector<double> voltage = wave().values[0];
+        voltage[7] = value;
+        impedance(wave().times, voltage, wave().values[1]);
+    });
+    wrong("coupling_gap", not_positive(), [](double value) {
+        coupling(std::vector<StaticLoad>{{0.1, 1}, {0.2, 2}, {0.3, 3}}, {.gap = value, .stiffness = 1});
+    });
+    wrong("coupling_stiffness", not_positive(), [](double value) {
+        coupling(std::vector<StaticLoad>{{0.1, 1}, {0.2, 2}, {0.3, 3}}, {.gap = 1, .stiffness = value});
+    });
 }
 
 /// An instrument that never answers.
@@ -245,14 +237,12 @@ public:
 };
 
 void experiments(WrongUses& wrong) {
-    for (const auto& [name, value] : not_finite()) {
-        wrong("awaited_line_" + name, [value = value] {
-            SilentLine line;
-            awaited_line(line, value, {}, "the generator");
-        });
-        wrong("watch_tolerance_" + name, [value = value] { RepeatWatch({0.1, value}, 1, 1); });
-        wrong("watch_section_" + name, [value = value] { RepeatWatch({0.1, 0.1}, 1, 1).add({value, 1}); });
-    }
+    wrong("awaited_line", not_finite(), [](double value) {
+        SilentLine line;
+        awaited_line(line, value, {}, "the generator");
+    });
+    wrong("watch_tolerance", not_finite(), [](double value) { RepeatWatch({0.1, value}, 1, 1); });
+    wrong("watch_section", not_finite(), [](double value) { RepeatWatch({0.1, 0.1}, 1, 1).add({value, 1}); });
     wrong("watch_tolerance_negative", [] { RepeatWatch({-0.1}, 1, 1); });
     wrong("watch_section", wrong_lengths(2), [](std::size_t length) {
         RepeatWatch({0.1, 0.1}, 1, 1).add(std::vector<double>(length, 1));

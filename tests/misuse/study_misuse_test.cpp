@@ -146,23 +146,15 @@ void result_files(WrongUses& wrong) {
         r.file->add_point("sweep", Results::point());
         r.file->add_point("sweep", Results::point());
     });
-    for (const auto& [kind, length] : wrong_lengths(2)) {
-        point("coordinates_" + kind, [n = length](PointRecord& p) { p.coordinates.resize(n); });
-        point("values_" + kind, [n = length](PointRecord& p) { p.result.samples.values.resize(n); });
-    }
-    for (const auto& [kind, length] : wrong_lengths(3))
-        point("state_" + kind, [n = length](PointRecord& p) { p.result.state.resize(n); });
-    for (const auto& [kind, length] : wrong_lengths(1))
-        point("samplings_" + kind, [n = length](PointRecord& p) { p.result.samples.samplings.resize(n); });
+    point("coordinates", wrong_lengths(2), [](PointRecord& p, std::size_t n) { p.coordinates.resize(n); });
+    point("values", wrong_lengths(2), [](PointRecord& p, std::size_t n) { p.result.samples.values.resize(n); });
+    point("state", wrong_lengths(3), [](PointRecord& p, std::size_t n) { p.result.state.resize(n); });
+    point("samplings", wrong_lengths(1), [](PointRecord& p, std::size_t n) { p.result.samples.samplings.resize(n); });
     point("width", [](PointRecord& p) { p.result.samples.width = 3; });
-    for (const auto& [kind, index] : wrong_indices(2))
-        point("mode_" + kind, [i = index](PointRecord& p) { p.result.mode = i; });
-    for (const auto& [kind, index] : wrong_indices(1)) {
-        point("direction_" + kind, [i = index](PointRecord& p) { p.direction = i; });
-        point("sampling_" + kind, [i = index](PointRecord& p) { p.result.samples.samplings = {i}; });
-    }
-    for (const auto& [kind, index] : wrong_indices(4))
-        point("number_" + kind, [i = index](PointRecord& p) { p.number = i; });
+    point("mode", wrong_indices(2), [](PointRecord& p, std::size_t i) { p.result.mode = i; });
+    point("direction", wrong_indices(1), [](PointRecord& p, std::size_t i) { p.direction = i; });
+    point("sampling", wrong_indices(1), [](PointRecord& p, std::size_t i) { p.result.samples.samplings = {i}; });
+    point("number", wrong_indices(4), [](PointRecord& p, std::size_t i) { p.number = i; });
     point("no_label", [](PointRecord& p) { p.result.label = static_cast<Label>(99); });
     const auto orbit = wrong.spoiled<OrbitRecord>(Results::orbit, {{"results_add_orbit", [](OrbitRecord& record) {
                                                                         const Results r;
@@ -254,11 +246,9 @@ void rows(WrongUses& wrong) {
           [](Results& results) { export_hdf5(*results.file, {"sweep"}, results.path()); });
     wrong("spectrum_of_nothing", [] { keep(spectrum({}, 1)); });
     wrong("spectrum_frequency", not_positive(), [](double v) { keep(spectrum(std::vector<double>{1, 2, 3, 4}, v)); });
-    for (const auto& [kind, value] : not_finite()) {
-        wrong("spectrum_sample_" + kind, [v = value] { keep(spectrum(std::vector<double>{1, v, 3, 4}, 1)); });
-        wrong("regression_" + kind, [v = value] { keep(regression(std::vector{1.0, v}, std::vector{1.0, 2.0})); });
-        wrong("regression_y_" + kind, [v = value] { keep(regression(std::vector{1.0, 2.0}, std::vector{1.0, v})); });
-    }
+    wrong("spectrum_sample", not_finite(), [](double v) { keep(spectrum(std::vector<double>{1, v, 3, 4}, 1)); });
+    wrong("regression", not_finite(), [](double v) { keep(regression(std::vector{1.0, v}, std::vector{1.0, 2.0})); });
+    wrong("regression_y", not_finite(), [](double v) { keep(regression(std::vector{1.0, 2.0}, std::vector{1.0, v})); });
     wrong("regression_x", wrong_lengths(3), [](std::size_t n) {
         keep(regression(std::vector(n, 1.0), std::vector{1.0, 2.0, 3.0}));
     });
@@ -317,11 +307,10 @@ void studies(WrongUses& wrong) {
         r.study.runs[0].values.resize(1);
         r.study.runs[0].value_names = r.study.runs[0].value_units = {"a"};
     });
-    for (const auto& [kind, index] : wrong_indices(5))
-        run("axis_parameter_" + kind,
-            [i = index](OneRun& r) { r.study.runs[0].motion().axes[0].parameter = ParameterId(i); });
-    for (const auto& [kind, index] : wrong_indices(oscillator().states.size()))
-        run("axis_state_" + kind, [i = index](OneRun& r) { r.study.runs[0].motion().axes[0].state = i; });
+    run("axis_parameter", wrong_indices(5),
+        [](OneRun& r, std::size_t i) { r.study.runs[0].motion().axes[0].parameter = ParameterId(i); });
+    run("axis_state", wrong_indices(oscillator().states.size()),
+        [](OneRun& r, std::size_t i) { r.study.runs[0].motion().axes[0].state = i; });
     run("axis_of_another_name", [](OneRun& r) { r.study.runs[0].motion().axes[0].name = "omega"; });
     run("axis_nan", [](OneRun& r) { r.study.runs[0].motion().axes[0].values = {not_a_number}; });
     run("axis_without_values", [](OneRun& r) { r.study.runs[0].motion().axes[0].values.clear(); });
@@ -329,10 +318,8 @@ void studies(WrongUses& wrong) {
     wrong("plan_of_default_run", [] { keep(plan_of({}, System(oscillator()), nullptr)); });
     StudyRun one;
     one.motion().axes = {{.name = "amplitude", .unit = "", .values = {0.5}}};
-    for (const auto& [kind, index] : wrong_indices(1)) {
-        wrong("coordinates_of_point_" + kind, [one, i = index] { keep(coordinates_of(one, i)); });
-        wrong("direction_of_point_" + kind, [one, i = index] { keep(direction_of(one, i)); });
-    }
+    wrong("coordinates_of_point", wrong_indices(1), [one](std::size_t i) { keep(coordinates_of(one, i)); });
+    wrong("direction_of_point", wrong_indices(1), [one](std::size_t i) { keep(direction_of(one, i)); });
 }
 
 TEST(WrongStudyUse, IsRefused) {

@@ -39,14 +39,10 @@ void attractor_options(WrongUses& wrong) {
     option("cycles_0", [](Options& o) { o.cycles = 0; });
     option("largest_period_0", [](Options& o) { o.largest_period = 0; });
     option("largest_period_huge", [](Options& o) { o.largest_period = huge; });
-    for (const auto& [kind, value] : not_positive())
-        option("recurrence_" + kind, [value = value](Options& o) { o.recurrence = value; });
-    for (const auto& [kind, value] : negative()) {
-        option("disturbance_" + kind, [value = value](Options& o) { o.disturbance = value; });
-        option("longest_return_" + kind, [value = value](Options& o) { o.longest_return = value; });
-    }
-    for (const auto& [kind, index] : wrong_indices(3))
-        option("bounds_state_" + kind, [i = index](Options& o) { o.bounds = {{i, 0, 1}}; });
+    option("recurrence", not_positive(), [](Options& o, double value) { o.recurrence = value; });
+    option("disturbance", negative(), [](Options& o, double value) { o.disturbance = value; });
+    option("longest_return", negative(), [](Options& o, double value) { o.longest_return = value; });
+    option("bounds_state", wrong_indices(3), [](Options& o, std::size_t i) { o.bounds = {{i, 0, 1}}; });
     option("bounds_reversed", [](Options& o) { o.bounds = {{0, 1, 0}}; });
     option("bounds_nan", [](Options& o) { o.bounds = {{0, not_a_number, 1}}; });
 }
@@ -64,18 +60,14 @@ void transient_options(WrongUses& wrong) {
         o.periods = 3;
     });
     option("contacts_of_nothing", [](Options& o) { o.contacts = 3; });
-    for (const auto& [kind, index] : wrong_indices(2))
-        option("counted_" + kind, [i = index](Options& o) {
-            o.contacts = 3;
-            o.counted = {i};
-        });
-    for (const auto& [kind, value] : negative()) {
-        option("time_" + kind, [value = value](Options& o) { o.time = value; });
-        option("skip_time_" + kind, [value = value](Options& o) { o.skip_time = value; });
-        option("greatest_speed_" + kind, [value = value](Options& o) { o.greatest_speed = value; });
-    }
-    for (const auto& [kind, index] : wrong_indices(3))
-        option("bounds_state_" + kind, [i = index](Options& o) { o.bounds = {{i, 0, 1}}; });
+    option("counted", wrong_indices(2), [](Options& o, std::size_t i) {
+        o.contacts = 3;
+        o.counted = {i};
+    });
+    option("time", negative(), [](Options& o, double value) { o.time = value; });
+    option("skip_time", negative(), [](Options& o, double value) { o.skip_time = value; });
+    option("greatest_speed", negative(), [](Options& o, double value) { o.greatest_speed = value; });
+    option("bounds_state", wrong_indices(3), [](Options& o, std::size_t i) { o.bounds = {{i, 0, 1}}; });
     option("bounds_reversed", [](Options& o) { o.bounds = {{0, 1, 0}}; });
     option("bounds_nan", [](Options& o) { o.bounds = {{0, not_a_number, 1}}; });
 }
@@ -91,11 +83,9 @@ void samplings(WrongUses& wrong) {
     sampling("extremum_of_unknown",
              [](Sampling& s) { s = {.at = Sampling::At::extremum, .expression = Graph::create()->symbol("unknown")}; });
     sampling("contact_of_nothing", [](Sampling& s) { s = {.at = Sampling::At::contact}; });
-    for (const auto& [kind, index] : wrong_indices(2))
-        sampling("contact_event_" + kind,
-                 [i = index](Sampling& s) { s = {.at = Sampling::At::contact, .events = {i}}; });
-    for (const auto& [kind, index] : wrong_indices(0))
-        sampling("symmetry_" + kind, [i = index](Sampling& s) { s.symmetry = i; });
+    sampling("contact_event", wrong_indices(2),
+             [](Sampling& s, std::size_t i) { s = {.at = Sampling::At::contact, .events = {i}}; });
+    sampling("symmetry", wrong_indices(0), [](Sampling& s, std::size_t i) { s.symmetry = i; });
     for (const auto& [kind, value] : std::vector<std::pair<std::string, Expression>>{
              {"nothing", {}}, {"unknown", Graph::create()->symbol("unknown")}}) {
         wrong("attractor_value_" + kind, [value = value] {

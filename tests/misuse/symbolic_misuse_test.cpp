@@ -61,18 +61,16 @@ void operators(WrongUses& wrong) {
         wrong(name + "_no_such_node",
               [function = function](Graphs& g) { keep(function(g.x, Expression(g.graph, 99))); });
     }
-    for (const auto& [kind, value] : not_finite()) {
-        wrong("x_plus_" + kind, [value = value] { keep(Graphs().x + value); });
-        wrong("x_minus_" + kind, [value = value] { keep(Graphs().x - value); });
-        wrong("x_times_" + kind, [value = value] { keep(Graphs().x * value); });
-        wrong("x_divided_by_" + kind, [value = value] { keep(Graphs().x / value); });
-        wrong("plus_x_" + kind, [value = value] { keep(value + Graphs().x); });
-        wrong("minus_x_" + kind, [value = value] { keep(value - Graphs().x); });
-        wrong("times_x_" + kind, [value = value] { keep(value * Graphs().x); });
-        wrong("over_x_" + kind, [value = value] { keep(value / Graphs().x); });
-        wrong("pow_" + kind, [value = value] { keep(pow(Graphs().x, value)); });
-        wrong("number_" + kind, [value = value] { keep(Graph::create()->number(value)); });
-    }
+    wrong("x_plus", not_finite(), [](double value) { keep(Graphs().x + value); });
+    wrong("x_minus", not_finite(), [](double value) { keep(Graphs().x - value); });
+    wrong("x_times", not_finite(), [](double value) { keep(Graphs().x * value); });
+    wrong("x_divided_by", not_finite(), [](double value) { keep(Graphs().x / value); });
+    wrong("plus_x", not_finite(), [](double value) { keep(value + Graphs().x); });
+    wrong("minus_x", not_finite(), [](double value) { keep(value - Graphs().x); });
+    wrong("times_x", not_finite(), [](double value) { keep(value * Graphs().x); });
+    wrong("over_x", not_finite(), [](double value) { keep(value / Graphs().x); });
+    wrong("pow", not_finite(), [](double value) { keep(pow(Graphs().x, value)); });
+    wrong("number", not_finite(), [](double value) { keep(Graph::create()->number(value)); });
     wrong("nothing_plus_number", [] { keep(Expression() + 1.0); });
     wrong("number_over_nothing", [] { keep(1.0 / Expression()); });
     wrong("nothing_to_a_power", [] { keep(pow(Expression(), 2.0)); });

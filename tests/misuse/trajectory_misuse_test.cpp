@@ -51,16 +51,14 @@ void probes(WrongUses& wrong) {
     phase("phase_value_of_state", [](Probe& p) { p.value = Graph::create()->symbol("x"); });
     phase("phase_value_unknown", [](Probe& p) { p.value = Graph::create()->symbol("unknown"); });
     phase("phase_of_state_not_cyclic", [](Probe& p) { p.state = 0; });
-    for (const auto& [kind, index] : wrong_indices(3))
-        phase("phase_state_" + kind, [i = index](Probe& p) { p.state = i; });
+    phase("phase_state", wrong_indices(3), [](Probe& p, std::size_t i) { p.state = i; });
     wrong("simulation_observing_nothing", [] { keep(Simulation(System(oscillator()), {}, {Expression()})); });
     wrong("simulation_observing_unknown",
           [] { keep(Simulation(System(oscillator()), {}, {Graph::create()->symbol("q")})); });
-    for (const auto& [kind, index] : wrong_indices(0)) {
-        wrong("series_of_probe_" + kind, [i = index] { keep(Simulation(System(oscillator())).series_of_probe(i)); });
-        wrong("series_of_observed_" + kind,
-              [i = index] { keep(Simulation(System(oscillator())).series_of_observed(i)); });
-    }
+    wrong("series_of_probe", wrong_indices(0),
+          [](std::size_t i) { keep(Simulation(System(oscillator())).series_of_probe(i)); });
+    wrong("series_of_observed", wrong_indices(0),
+          [](std::size_t i) { keep(Simulation(System(oscillator())).series_of_observed(i)); });
     wrong("moved_simulation", [] {
         Simulation simulation{System(oscillator())};
         const Simulation moved = std::move(simulation);
@@ -73,22 +71,20 @@ void starts(WrongUses& wrong) {
         const Simulation simulation{System(oscillator())};
         keep(Trajectory(simulation, std::vector<double>(length)));
     });
-    for (const auto& [kind, value] : not_finite()) {
-        wrong("trajectory_parameter_" + kind, [value = value](Motion& m) {
-            std::vector<double> parameters = m.model.parameter_values();
-            parameters[0] = value;
-            Trajectory trajectory(m.simulation, parameters);
-            trajectory.start(m.model.initial_state(), 0, 0, 1);
-        });
-        wrong("start_state_" + kind, [value = value](Motion& m) {
-            m.trajectory.start(std::vector<double>{value, 0, 0}, 0, 0, 1);
-        });
-        wrong("start_time_" + kind,
-              [value = value](Motion& m) { m.trajectory.start(m.model.initial_state(), 0, value, 1); });
-        wrong("end_time_" + kind,
-              [value = value](Motion& m) { m.trajectory.start(m.model.initial_state(), 0, 0, value); });
-        wrong("extend_" + kind, [value = value](Motion& m) { m.finished().extend(value); });
-    }
+    wrong("trajectory_parameter", not_finite(), [](Motion& m, double value) {
+        std::vector<double> parameters = m.model.parameter_values();
+        parameters[0] = value;
+        Trajectory trajectory(m.simulation, parameters);
+        trajectory.start(m.model.initial_state(), 0, 0, 1);
+    });
+    wrong("start_state", not_finite(), [](Motion& m, double value) {
+        m.trajectory.start(std::vector<double>{value, 0, 0}, 0, 0, 1);
+    });
+    wrong("start_time", not_finite(),
+          [](Motion& m, double value) { m.trajectory.start(m.model.initial_state(), 0, value, 1); });
+    wrong("end_time", not_finite(),
+          [](Motion& m, double value) { m.trajectory.start(m.model.initial_state(), 0, 0, value); });
+    wrong("extend", not_finite(), [](Motion& m, double value) { m.finished().extend(value); });
     wrong("end_before_start", [](Motion& m) { m.trajectory.start(m.model.initial_state(), 0, 0, -1); });
     wrong("start_states", wrong_lengths(3),
           [](Motion& m, std::size_t length) { m.trajectory.start(std::vector<double>(length), 0, 0, 1); });
@@ -150,17 +146,15 @@ void order_of_calls(WrongUses& wrong) {
         keep(m.trajectory.propose(jet(m), 0.1));
     });
     wrong("advance_after_end", [](Motion& m) { m.finished().advance(StepPreview(m.simulation, 1)); });
-    for (const auto& [kind, lane] : wrong_indices(1)) {
-        wrong("propose_lane_" + kind, [=, lane = lane](Motion& m) {
-            parameters(m);
-            keep(m.begun().propose(jet(m), 0.1, lane));
-        });
-        wrong("advance_lane_" + kind, [=, lane = lane](Motion& m) {
-            parameters(m);
-            keep(m.begun().propose(jet(m), 0.1));
-            m.trajectory.advance(StepPreview(m.simulation, 1), lane);
-        });
-    }
+    wrong("propose_lane", wrong_indices(1), [=](Motion& m, std::size_t lane) {
+        parameters(m);
+        keep(m.begun().propose(jet(m), 0.1, lane));
+    });
+    wrong("advance_lane", wrong_indices(1), [=](Motion& m, std::size_t lane) {
+        parameters(m);
+        keep(m.begun().propose(jet(m), 0.1));
+        m.trajectory.advance(StepPreview(m.simulation, 1), lane);
+    });
     wrong("propose_with_another_models_jet", [](Motion& m) {
         const Simulation other{System(load_model("mems-switch"))};
         JetSet jets(other, LaneKind::single);
@@ -203,28 +197,25 @@ void order_of_calls(WrongUses& wrong) {
 }
 
 void drivers(WrongUses& wrong) {
-    for (const auto& [kind, mode] : wrong_indices(2)) {
-        wrong("jet_set_mode_" + kind, [i = mode](Motion& m) { keep(m.jets(i)); });
-        wrong("jet_set_next_" + kind, [i = mode](Motion& m) { keep(m.jets.next(i)); });
-        wrong("jet_set_computed_" + kind, [i = mode](Motion& m) { keep(m.jets.computed(i, std::vector<double>(3))); });
-        wrong("jet_set_parameters_of_mode_" + kind,
-              [i = mode](Motion& m) { m.jets.set_parameters(i, std::vector<double>(5)); });
-        wrong("preview_mode_" + kind, [i = mode](Motion& m) {
-            m.jets.set_parameters(m.model.parameter_values());
-            StepPreview preview(m.simulation, 1);
-            Jet& jet = m.jets.computed(0, m.model.initial_state());
-            preview.lengths()[0] = 0.01;
-            preview.evaluate_ends(jet, m.jets.next(0), i);
-        });
-    }
-    for (const auto& [kind, length] : wrong_lengths(5)) {
-        wrong("jet_set_parameters_" + kind, [n = length](Motion& m) { m.jets.set_parameters(std::vector<double>(n)); });
-        wrong("jet_set_parameters_of_mode_" + kind,
-              [n = length](Motion& m) { m.jets.set_parameters(0, std::vector<double>(n)); });
-    }
-    for (const auto& [kind, length] : wrong_lengths(3))
-        wrong("jet_set_computed_states_" + kind,
-              [n = length](Motion& m) { keep(m.jets.computed(0, std::vector<double>(n))); });
+    wrong("jet_set_mode", wrong_indices(2), [](Motion& m, std::size_t i) { keep(m.jets(i)); });
+    wrong("jet_set_next", wrong_indices(2), [](Motion& m, std::size_t i) { keep(m.jets.next(i)); });
+    wrong("jet_set_computed", wrong_indices(2),
+          [](Motion& m, std::size_t i) { keep(m.jets.computed(i, std::vector<double>(3))); });
+    wrong("jet_set_parameters_of_mode", wrong_indices(2),
+          [](Motion& m, std::size_t i) { m.jets.set_parameters(i, std::vector<double>(5)); });
+    wrong("preview_mode", wrong_indices(2), [](Motion& m, std::size_t i) {
+        m.jets.set_parameters(m.model.parameter_values());
+        StepPreview preview(m.simulation, 1);
+        Jet& jet = m.jets.computed(0, m.model.initial_state());
+        preview.lengths()[0] = 0.01;
+        preview.evaluate_ends(jet, m.jets.next(0), i);
+    });
+    wrong("jet_set_parameters", wrong_lengths(5),
+          [](Motion& m, std::size_t n) { m.jets.set_parameters(std::vector<double>(n)); });
+    wrong("jet_set_parameters_of_mode", wrong_lengths(5),
+          [](Motion& m, std::size_t n) { m.jets.set_parameters(0, std::vector<double>(n)); });
+    wrong("jet_set_computed_states", wrong_lengths(3),
+          [](Motion& m, std::size_t n) { keep(m.jets.computed(0, std::vector<double>(n))); });
     wrong("jet_set_no_kind", [](Motion& m) { keep(JetSet(m.simulation, static_cast<LaneKind>(9))); });
     wrong("jet_set_no_set",
           [](Motion& m) { keep(JetSet(m.simulation, LaneKind::single, static_cast<InstructionSet>(9))); });
@@ -235,13 +226,16 @@ void drivers(WrongUses& wrong) {
         m.jets.set_parameters(m.model.parameter_values());
         StepPreview(m.simulation, 8).find_steps(m.jets.computed(0, m.model.initial_state()));
     });
-    for (const auto& [kind, index] : wrong_indices(1)) {
-        wrong("preview_length_" + kind, [i = index](Motion& m) { keep(StepPreview(m.simulation, 1).length(i)); });
-        wrong("preview_agrees_" + kind, [i = index](Motion& m) { keep(StepPreview(m.simulation, 1).agrees(i)); });
-        wrong("preview_state_lane_" + kind, [i = index](Motion& m) { keep(StepPreview(m.simulation, 1).state(2, i)); });
-        wrong("preview_least_lane_" + kind, [i = index](Motion& m) { keep(StepPreview(m.simulation, 1).least(0, i)); });
-        wrong("preview_size_lane_" + kind, [i = index](Motion& m) { keep(StepPreview(m.simulation, 1).size(0, i)); });
-    }
+    wrong("preview_length", wrong_indices(1),
+          [](Motion& m, std::size_t i) { keep(StepPreview(m.simulation, 1).length(i)); });
+    wrong("preview_agrees", wrong_indices(1),
+          [](Motion& m, std::size_t i) { keep(StepPreview(m.simulation, 1).agrees(i)); });
+    wrong("preview_state_lane", wrong_indices(1),
+          [](Motion& m, std::size_t i) { keep(StepPreview(m.simulation, 1).state(2, i)); });
+    wrong("preview_least_lane", wrong_indices(1),
+          [](Motion& m, std::size_t i) { keep(StepPreview(m.simulation, 1).least(0, i)); });
+    wrong("preview_size_lane", wrong_indices(1),
+          [](Motion& m, std::size_t i) { keep(StepPreview(m.simulation, 1).size(0, i)); });
     wrong("ensemble_unstarted", [](Motion& m) { Ensemble(m.simulation).run(std::span(&m.trajectory, 1)); });
     wrong("ensemble_of_another_simulation",
           [](Motion& m) { Ensemble(Simulation(System(m.model))).run(std::span(&m.begun(), 1)); });

@@ -13,6 +13,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <typeinfo>
 #include <utility>
 #include <vector>
@@ -241,19 +242,38 @@ public:
         for (const auto& [how, value] : values)
             add(name + "_" + how, std::function(use), value);
     }
-    /// Returns a function that adds uses of an object with a mistake, each under its own name and that of the mistake.
-    /// @param make returns the object without a mistake
+    /// Adds uses of an object with a mistake, each under its own name and that of the mistake.
     template <class Object>
-    auto spoiled(const std::function<Object()>& make,
-                 const std::vector<std::pair<std::string, std::function<void(Object&)>>>& uses) {
-        return [=, this](const std::string& mistake, const std::function<void(Object&)>& spoil) {
-            for (const auto& [name, use] : uses)
-                add(name + "_" + mistake, std::function([make, spoil, use = use] {
-                        Object object = make();
-                        spoil(object);
-                        use(object);
-                    }));
-        };
+    class Spoiled {
+    public:
+        using Uses = std::vector<std::pair<std::string, std::function<void(Object&)>>>;
+        /// @param make returns the object without a mistake
+        Spoiled(WrongUses& wrong, std::function<Object()> make, Uses uses)
+            : wrong_(wrong), make_(std::move(make)), uses_(std::move(uses)) {}
+        void operator()(const std::string& mistake, const std::function<void(Object&)>& spoil) const {
+            for (const auto& [name, use] : uses_)
+                wrong_(name + "_" + mistake, [make = make_, spoil, use = use] {
+                    Object object = make();
+                    spoil(object);
+                    use(object);
+                });
+        }
+        /// The same for a mistake with each value of a list.
+        template <class Value>
+        void operator()(const std::string& mistake, const std::vector<std::pair<std::string, Value>>& values,
+                        const std::type_identity_t<std::function<void(Object&, Value)>>& spoil) const {
+            for (const auto& [how, value] : values)
+                (*this)(mistake + "_" + how, [spoil, value = value](Object& object) { spoil(object, value); });
+        }
+
+    private:
+        WrongUses& wrong_;
+        std::function<Object()> make_;
+        Uses uses_;
+    };
+    template <class Object>
+    Spoiled<Object> spoiled(std::function<Object()> make, typename Spoiled<Object>::Uses uses) {
+        return {*this, std::move(make), std::move(uses)};
     }
     const std::vector<WrongUse>& list() const { return list_; }
 
