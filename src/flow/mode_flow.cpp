@@ -3,7 +3,6 @@
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -2,7 +2,6 @@
 
 #include "graze/trajectory/ensemble.hpp"
 
-
 #include "closed_form.hpp"
 #include "simulate.hpp"
 

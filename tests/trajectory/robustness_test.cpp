@@ -66,7 +66,8 @@ TEST_P(Robustness, RandomParametersEndRegularly) {
                                     {.tolerance = tolerances[sample % 4], .step_limit = 3'000'000});
         Trajectory trajectory(simulation, model.parameter_values());
         trajectory.start(model.initial_state(), model.initial_mode, 0, scenario.time);
-        run(trajectory);
+        JetSet jets(simulation, LaneKind::single);
+        run(trajectory, jets);
         const Ending ending = trajectory.outcome().ending;
         EXPECT_TRUE(ending == Ending::end_time ||
                     (scenario.gap_may_close && (ending == Ending::singular || ending == Ending::terminal)))
@@ -118,7 +119,8 @@ TEST(StandStill, CrossingsThatAccumulateBetweenTwoModesComeToRest) {
         Rest rest;
         Trajectory trajectory(simulation, model.parameter_values(), borrowed(rest));
         trajectory.start(model.initial_state(), model.initial_mode, 0, 100);
-        run(trajectory);
+        JetSet jets(simulation, LaneKind::single);
+        run(trajectory, jets);
         const double fall = std::sqrt(2 * 0.5 / 9.81), expected = fall * (1 + 0.9) / (1 - 0.9);
         EXPECT_EQ(trajectory.outcome().ending, with_rest ? Ending::end_time : Ending::chatter);
         // Positions are known to 1e-17, so the last part of the sum, flights of less than 1e-9, is known only roughly.
