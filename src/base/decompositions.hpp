@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 
-#include <complex>
 #include <optional>
 
 namespace graze {

@@ -2,6 +2,7 @@
 
 #include "graze/base/printable.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace graze {
@@ -37,19 +38,8 @@ std::string Place::text() const {
 }
 
 std::string_view name_of(ErrorKind kind) {
-    switch (kind) {
-    case ErrorKind::input:
-        return "input";
-    case ErrorKind::file:
-        return "file";
-    case ErrorKind::instrument:
-        return "instrument";
-    case ErrorKind::order:
-        return "order";
-    case ErrorKind::internal:
-        break;
-    }
-    return "internal";
+    constexpr std::string_view names[] = {"input", "file", "instrument", "order", "internal"};
+    return names[std::min(static_cast<std::size_t>(kind), std::size(names) - 1)];
 }
 
 Error::Error(ErrorKind kind, Place place, const std::string& problem, const std::string& remedy)

@@ -9,8 +9,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <optional>
-#include <string>
 #include <utility>
 
 namespace graze {

@@ -4,7 +4,6 @@
 #include "graze/base/require.hpp"
 #include "tape/tape_analysis.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>

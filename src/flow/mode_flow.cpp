@@ -3,8 +3,6 @@
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

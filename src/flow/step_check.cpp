@@ -5,9 +5,6 @@
 #include "graze/flow/roots.hpp"
 #include "graze/flow/step_size.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace graze {
 
 namespace {

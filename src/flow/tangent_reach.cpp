@@ -1,6 +1,5 @@
 #include "flow/tangent_reach.hpp"
 
-#include "graze/base/require.hpp"
 #include "graze/flow/step_check.hpp"
 
 #include <algorithm>

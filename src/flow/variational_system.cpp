@@ -1,6 +1,5 @@
 #include "graze/flow/variational_system.hpp"
 
-#include "flow/modes_with_tangents.hpp"
 #include "flow/section_function.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
@@ -16,6 +15,53 @@
 namespace graze {
 
 namespace {
+
+/// Returns a symbol in the model's graph whose name the model does not use.
+Expression new_symbol(Model& model, const std::string& base) {
+    std::string name = base;
+    const auto is_definition = [&](const Definition& definition) { return definition.name == name; };
+    while (model.find_state(name) || model.find_parameter(name) ||
+           std::any_of(model.definitions.begin(), model.definitions.end(), is_definition))
+        name += '_';
+    return model.symbol(name);
+}
+
+/// Returns the modes of a model without events, extended by derivatives of the states as further states: x' = f, w' =
+/// the derivative of f along w. States: first those of the model, then, column by column, the derivatives of `rows`.
+/// @param rows states whose derivatives are computed
+/// @param columns for each column, the vector along which it is the derivative: first the components of the rows, in
+/// their order, then others, which become parameters
+System modes_with_tangents(Model& model, std::span<const std::size_t> rows,
+                           std::span<const std::vector<Component>> columns) {
+    Model grown;
+    grown.graph = model.graph;
+    grown.name = model.name;
+    const auto add_state = [&](const Expression& symbol) {
+        grown.states.push_back({.name = symbol.name(), .initial = model.number(0)});
+    };
+    for (const Expression& state : model.state_symbols())
+        add_state(state);
+    const std::vector<double> values = model.parameter_values();
+    for (const Expression& parameter : model.parameter_symbols())
+        grown.parameters.push_back({.name = parameter.name(), .value = values[grown.parameters.size()]});
+    for (const std::vector<Component>& column : columns)
+        for (std::size_t k = 0; k < column.size(); ++k)
+            if (const Expression& component = column[k].second; k < rows.size())
+                add_state(component);
+            else
+                grown.parameters.push_back({.name = component.name(), .value = 0.0});
+    for (const Mode& mode : model.modes) {
+        std::vector<Expression> rates = model.expand(mode.rates), moving;
+        for (const std::size_t row : rows)
+            moving.push_back(rates[row]);
+        for (const std::vector<Component>& column : columns) {
+            const std::vector<Expression> along = differentiate_along(moving, column);
+            rates.insert(rates.end(), along.begin(), along.end());
+        }
+        grown.modes.push_back({.name = mode.name, .rates = std::move(rates)});
+    }
+    return System(grown);
+}
 
 /// Differentiates in a copy of a system's model, whose graph may grow and is discarded afterwards.
 class VariationalCompiler {
@@ -106,28 +152,6 @@ VariationalSystem::VariationalSystem(const System& system, std::vector<Parameter
     }
     parts.workspace = compiler.workspace();
     parts_ = std::make_shared<const Parts>(std::move(parts));
-}
-
-const Function& VariationalSystem::event(std::size_t index) const {
-    require_index(index, parts_->events.size(), "event");
-    return parts_->events[index];
-}
-
-const Function& VariationalSystem::section(std::size_t index, std::optional<std::size_t> symmetry) const {
-    require_index(index, parts_->sections.size(), "section");
-    if (symmetry)
-        require_index(*symmetry, parts_->symmetries.size(), "symmetry");
-    return parts_->sections[index][symmetry ? 1 + *symmetry : 0];
-}
-
-const Function& VariationalSystem::jump(std::size_t index) const {
-    require_index(index, parts_->jumps.size(), "jump");
-    return parts_->jumps[index];
-}
-
-const Function& VariationalSystem::symmetry(std::size_t index) const {
-    require_index(index, parts_->symmetries.size(), "symmetry");
-    return parts_->symmetries[index];
 }
 
 Function VariationalSystem::function_of(std::span<const Expression> expressions) const {

@@ -1,7 +1,6 @@
 #include "graze/model/check.hpp"
 
 #include "graze/base/printable.hpp"
-#include "graze/symbolic/function.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "model/check_symmetry.hpp"
 #include "model/model_expressions.hpp"
@@ -141,19 +140,13 @@ private:
     }
 
     void check_alternatives(const Transition& transition) {
-        const auto same = [](const Alternative& one, const Alternative& other) {
-            return std::equal(one.when.begin(), one.when.end(), other.when.begin(), other.when.end(),
-                              [](const Condition& a, const Condition& b) {
-                                  return a.function == b.function && a.strict == b.strict;
-                              });
-        };
         const auto& next = transition.next;
         const auto last = std::find_if(next.begin(), next.end(), [](const auto& item) { return item.when.empty(); });
         if (last == next.end())
             warn("the conditions of the transition '{}' may all fail: the motion ends where they do", transition.label);
         for (auto item = next.begin(); item != next.end(); ++item) {
             const bool repeated =
-                std::any_of(next.begin(), item, [&](const auto& other) { return same(*item, other); });
+                std::any_of(next.begin(), item, [&](const auto& other) { return item->when == other.when; });
             if (repeated || item > last)
                 warn("alternative {} of the transition '{}' is never taken: an earlier one always comes first",
                      item - next.begin() + 1, transition.label);

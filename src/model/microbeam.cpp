@@ -4,21 +4,17 @@
 #include "graze/symbolic/transform.hpp"
 #include "model/microbeam_quadrature.hpp"
 
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <numbers>
-#include <optional>
-#include <string>
 #include <utility>
 
 namespace graze {
 namespace {
 
 void require(bool holds, const std::string& problem, const std::string& remedy) {
-    if (!holds) {
+    if (!holds)
         throw InputError("microbeam: " + problem, remedy);
-    }
 }
 
 void require_sensible(const MicrobeamOptions& o) {
@@ -34,9 +30,8 @@ void require_sensible(const MicrobeamOptions& o) {
         {"voltage", o.voltage},
         {"damping", o.damping},
     };
-    for (const auto& [name, value] : numbers) {
+    for (const auto& [name, value] : numbers)
         require(std::isfinite(value), std::string("the ") + name + " is not finite", "give a finite number");
-    }
     constexpr int most_modes = 200;
     require(o.modes >= 1 && o.modes <= most_modes, "the number of modes is " + std::to_string(o.modes),
             "give a number between 1 and " + std::to_string(most_modes));
@@ -108,9 +103,8 @@ private:
 
     /// Returns the sum; terms that vanish identically are left out.
     static Expression added(const Expression& sum, const Expression& term) {
-        if (term.is_number(0)) {
+        if (term.is_number(0))
             return sum;
-        }
         return sum.empty() || sum.is_number(0) ? term : sum + term;
     }
 
@@ -162,26 +156,22 @@ private:
 
     void add_states() {
         const Expression zero = number(0);
-        for (int i = 1; i <= count(); ++i) {
+        for (int i = 1; i <= count(); ++i)
             model_.states.push_back({numbered("q", i), "", numbered("amplitude of mode ", i), zero, {}, false});
-        }
-        for (int i = 1; i <= count(); ++i) {
+        for (int i = 1; i <= count(); ++i)
             model_.states.push_back({numbered("v", i), "", numbered("velocity of mode ", i), zero, {}, false});
-        }
         model_.states.push_back({"theta", "", "phase of the pulse train", zero, number(2 * std::numbers::pi), false});
         model_.state_symbols();
     }
 
     void add_stretching() {
-        for (int i = 1; i <= count(); ++i) {
+        for (int i = 1; i <= count(); ++i)
             define(numbered("frequency_", i), numbered("modal frequency ", i), number(frequency_of(i)));
-        }
         Expression stretch = number(0);
         for (int i = 1; i <= count(); ++i) {
             Expression slope = number(0);
-            for (int j = 1; j <= count(); ++j) {
+            for (int j = 1; j <= count(); ++j)
                 slope = added(slope, slope_product(i, j) * q(j));
-            }
             define(numbered("slope_", i), numbered("slope of the beam projected onto that of mode ", i), slope);
             stretch = added(stretch, symbol(numbered("slope_", i)) * q(i));
         }
@@ -191,9 +181,8 @@ private:
     /// Returns the deflection at x due to the symmetric modes (first = 1) or the antisymmetric modes (first = 2).
     Expression partial_deflection(double x, int first) const {
         Expression sum = number(0);
-        for (int i = first; i <= count(); i += 2) {
+        for (int i = first; i <= count(); i += 2)
             sum = added(sum, shape(i, x) * q(i));
-        }
         return sum;
     }
 
@@ -238,10 +227,9 @@ private:
                 }
             }
         }
-        for (int i = 1; i <= count(); ++i) {
+        for (int i = 1; i <= count(); ++i)
             define(numbered("pull_", i), numbered("attraction per V^2 projected onto mode ", i),
                    pulls[static_cast<std::size_t>(i - 1)]);
-        }
     }
 
     void add_stop() {
@@ -260,8 +248,7 @@ private:
     }
 
     void add_events_and_jumps() {
-        const Expression theta = symbol("theta");
-        const Expression clearance = symbol("clearance");
+        const Expression theta = symbol("theta"), clearance = symbol("clearance");
         const double pi = std::numbers::pi;
         model_.events = {
             {"touch", "the beam meets the stop", clearance, EventKind::barrier},
@@ -281,21 +268,18 @@ private:
 
     std::vector<Expression> rates(bool on, bool contact) const {
         std::vector<Expression> rates;
-        for (int i = 1; i <= count(); ++i) {
+        for (int i = 1; i <= count(); ++i)
             rates.push_back(v(i));
-        }
         for (int i = 1; i <= count(); ++i) {
             const Expression frequency = symbol(numbered("frequency_", i));
             const Expression drag = 2 * symbol("zeta") * frequency * v(i);
             const Expression bending = pow(frequency, 2.0) * q(i);
             const Expression stretching = symbol("gamma") / 2 * symbol("stretch") * symbol(numbered("slope_", i));
             Expression rate = -drag - bending - stretching;
-            if (on) {
+            if (on)
                 rate = rate + pow(symbol("V"), 2.0) * symbol(numbered("pull_", i));
-            }
-            if (contact) {
+            if (contact)
                 rate = added(rate, shape(i, options_.stop_position) * symbol("stop_force"));
-            }
             rates.push_back(rate);
         }
         rates.push_back(symbol("omega"));
@@ -321,26 +305,13 @@ private:
         model_.modes = {{"free", "beam clear of the stop", rates(true, false), {touch}},
                         {"contact", "beam on the stop", rates(true, true), {leave}}};
         model_.initial_mode = free;
-        for (const auto& [from, event, to] :
-             {std::array{free, std::size_t{touch}, contact}, std::array{contact, std::size_t{leave}, free}}) {
-            Transition transition;
-            transition.label = model_.modes[from].name + ":" + model_.events[event].name;
-            transition.mode = from;
-            transition.event = event;
-            transition.jump = identity;
-            transition.next = {{{}, "", to}};
-            model_.transitions.push_back(std::move(transition));
-        }
+        add_transition(free, touch, identity, contact);
+        add_transition(contact, leave, identity, free);
     }
 
-    void add_transition(ModeIndex mode, EventIndex event, JumpIndex jump, std::optional<std::size_t> next) {
-        Transition transition;
-        transition.label = model_.modes[mode].name + ":" + model_.events[event].name;
-        transition.mode = mode;
-        transition.event = event;
-        transition.jump = jump;
-        transition.next = {{{}, "", next}};
-        model_.transitions.push_back(std::move(transition));
+    void add_transition(std::size_t mode, EventIndex event, JumpIndex jump, std::optional<std::size_t> next) {
+        const std::string label = model_.modes[mode].name + ":" + model_.events[event].name;
+        model_.transitions.push_back({label, mode, event, jump, {{{}, "", next}}, {}});
     }
 
     void add_transitions() {

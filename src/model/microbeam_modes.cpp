@@ -30,9 +30,8 @@ double wave_number(int i) {
         const double residual = sign * std::sin(shift) - inverse_cosh;
         const double change = residual / (sign * std::cos(shift) + inverse_cosh * tanh);
         shift -= change;
-        if (std::abs(change) <= 1e-17 * base) {
+        if (std::abs(change) <= 1e-17 * base)
             break;
-        }
     }
     return base + shift;
 }
@@ -50,21 +49,18 @@ void require_place(double x) {
 }
 
 void require_mode(int i, int count) {
-    if (i < 1 || i > count) {
+    if (i < 1 || i > count)
         throw InputError("mode number " + std::to_string(i) + " is not between 1 and " + std::to_string(count), "");
-    }
 }
 
 } // namespace
 
 ClampedBeamModes::ClampedBeamModes(int count) {
-    if (count < 1) {
+    if (count < 1)
         throw InputError("a beam cannot have " + std::to_string(count) + " modes", "ask for at least 1");
-    }
     wave_numbers_.reserve(static_cast<std::size_t>(count));
-    for (int i = 1; i <= count; ++i) {
+    for (int i = 1; i <= count; ++i)
         wave_numbers_.push_back(wave_number(i));
-    }
 }
 
 double ClampedBeamModes::frequency(int i) const {
@@ -82,9 +78,8 @@ double ClampedBeamModes::shape(int i, double x) const {
     if (x > 0.5) {
         return parity * shape(i, 1 - x); // so that the symmetry is exact
     }
-    if (x == 0.5 && parity < 0) {
+    if (x == 0.5 && parity < 0)
         return 0;
-    }
     const double k = wave_numbers_[static_cast<std::size_t>(i - 1)];
     const double layers = (std::exp(-k * x) + parity * std::exp(-k * (1 - x))) / (1 + parity * std::exp(-k));
     return layers - std::cos(k * x) + sine_weight(i, k) * std::sin(k * x);
@@ -94,12 +89,10 @@ double ClampedBeamModes::slope(int i, double x) const {
     require_mode(i, count());
     require_place(x);
     const double parity = is_symmetric(i) ? 1 : -1;
-    if (x > 0.5) {
+    if (x > 0.5)
         return -parity * slope(i, 1 - x);
-    }
-    if (x == 0.5 && parity > 0) {
+    if (x == 0.5 && parity > 0)
         return 0;
-    }
     const double k = wave_numbers_[static_cast<std::size_t>(i - 1)];
     const double layers = (parity * std::exp(-k * (1 - x)) - std::exp(-k * x)) / (1 + parity * std::exp(-k));
     return k * (layers + std::sin(k * x) + sine_weight(i, k) * std::cos(k * x));
@@ -108,16 +101,14 @@ double ClampedBeamModes::slope(int i, double x) const {
 double ClampedBeamModes::slope_product(int i, int j) const {
     require_mode(i, count());
     require_mode(j, count());
-    if (is_symmetric(i) != is_symmetric(j)) {
+    if (is_symmetric(i) != is_symmetric(j))
         return 0;
-    }
     const double ki = wave_numbers_[static_cast<std::size_t>(i - 1)];
     const double kj = wave_numbers_[static_cast<std::size_t>(j - 1)];
     const double si = sine_weight(i, ki) * ki;
     const double sj = sine_weight(j, kj) * kj;
-    if (i == j) {
+    if (i == j)
         return si * (si - 2);
-    }
     const double product = ki * kj;
     return -8 * product * product * (si - sj) / ((ki - kj) * (ki + kj) * (ki * ki + kj * kj));
 }

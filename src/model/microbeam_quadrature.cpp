@@ -2,7 +2,6 @@
 
 #include "graze/base/input_error.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -13,10 +12,9 @@ namespace {
 constexpr int most_points = 10000;
 
 std::vector<NodePair> simpson_pairs(int intervals) {
-    if (intervals < 2 || intervals % 2 != 0 || intervals > most_points) {
+    if (intervals < 2 || intervals % 2 != 0 || intervals > most_points)
         throw InputError("Simpson's rule cannot have " + std::to_string(intervals) + " intervals",
                          "give an even number between 2 and " + std::to_string(most_points));
-    }
     std::vector<NodePair> pairs;
     for (int k = 1; k <= intervals / 2; ++k) {
         const double height = k % 2 == 1 ? 4 : 2;
@@ -41,13 +39,11 @@ Legendre legendre(int degree, double z) {
 }
 
 std::vector<NodePair> gauss_pairs(int nodes) {
-    if (nodes < 1 || nodes > most_points) {
+    if (nodes < 1 || nodes > most_points)
         throw InputError("Gauss's rule cannot have " + std::to_string(nodes) + " nodes",
                          "give a number between 1 and " + std::to_string(most_points));
-    }
-    if (nodes == 1) {
+    if (nodes == 1)
         return {{0.5, 1.0}};
-    }
     std::vector<NodePair> pairs;
     for (int k = 1; k <= (nodes + 1) / 2; ++k) {
         const bool centre = 2 * k == nodes + 1;
@@ -57,9 +53,8 @@ std::vector<NodePair> gauss_pairs(int nodes) {
             const Legendre polynomial = legendre(nodes, z);
             const double change = polynomial.value / polynomial.slope;
             z -= change;
-            if (std::abs(change) < 1e-16) {
+            if (std::abs(change) < 1e-16)
                 break;
-            }
         }
         const double slope = legendre(nodes, z).slope;
         pairs.push_back({(1 - z) / 2, 1 / ((1 - z) * (1 + z) * slope * slope)});

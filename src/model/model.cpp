@@ -2,7 +2,6 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
-#include "model/model_expand.hpp"
 #include "model/model_expressions.hpp"
 #include "model/model_validate.hpp"
 
@@ -14,14 +13,6 @@
 namespace graze {
 
 namespace {
-
-template <typename Item>
-std::optional<std::size_t> find_named(const std::vector<Item>& items, std::string_view name) {
-    const auto found = std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });
-    if (found == items.end())
-        return std::nullopt;
-    return static_cast<std::size_t>(found - items.begin());
-}
 
 /// Returns the index of the named item. @throws InputError with the nearest name
 template <typename Item>
@@ -120,28 +111,6 @@ ParameterId Model::independent_parameter(std::string_view item) const {
     if (find_parameter(item))
         throw InputError(fmt::format("parameter '{}' follows from others", item), "choose one that it depends on");
     throw InputError(fmt::format("there is no parameter '{}'", item), name_remedy(item, independent_parameters()));
-}
-
-std::optional<std::size_t> Model::find_parameter(std::string_view item) const {
-    return find_named(parameters, item);
-}
-std::optional<std::size_t> Model::find_state(std::string_view item) const {
-    return find_named(states, item);
-}
-std::optional<std::size_t> Model::find_mode(std::string_view item) const {
-    return find_named(modes, item);
-}
-std::optional<std::size_t> Model::find_event(std::string_view item) const {
-    return find_named(events, item);
-}
-std::optional<std::size_t> Model::find_jump(std::string_view item) const {
-    return find_named(jumps, item);
-}
-std::optional<std::size_t> Model::find_section(std::string_view item) const {
-    return find_named(sections, item);
-}
-std::optional<std::size_t> Model::find_quantity(std::string_view item) const {
-    return find_named(quantities, item);
 }
 
 const Transition* Model::find_transition(std::size_t mode, std::size_t event) const {

@@ -2,7 +2,6 @@
 
 #include "graze/model/model.hpp"
 
-#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>

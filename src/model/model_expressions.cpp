@@ -143,6 +143,18 @@ StateChanges changes_of(const StateMap& map, std::span<const Expression> states,
     return changes;
 }
 
+Scope scope_of(const Model& model) {
+    Scope scope;
+    const auto add = [&](const auto& items) {
+        for (const auto& item : items)
+            scope.insert_or_assign(item.name, model.symbol(item.name));
+    };
+    add(model.parameters);
+    add(model.states);
+    add(model.definitions);
+    return scope;
+}
+
 void visit_expressions(Model& model, const std::function<void(Expression&)>& visit) {
     // Images that were shared between maps before the visit are shared afterwards.
     std::unordered_map<const std::vector<Expression>*, std::shared_ptr<const std::vector<Expression>>> visited;

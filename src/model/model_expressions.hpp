@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/model/model.hpp"
+#include "graze/symbolic/parser.hpp"
 
 #include <functional>
 #include <memory>
@@ -32,6 +33,9 @@ std::vector<Expression> expressions_of(const Model& model, ExpressionRole role);
 using StateChanges = std::vector<StateMap::Change>;
 StateChanges changes_of(const StateMap& map, std::span<const Expression> states,
                         std::shared_ptr<const std::vector<Expression>>& identity);
+
+/// Returns the symbols that expressions of a model may have in them: parameters, states, definitions.
+Scope scope_of(const Model& model);
 
 /// Passes every expression of a model, empty ones included, to `visit` for modification.
 void visit_expressions(Model& model, const std::function<void(Expression&)>& visit);

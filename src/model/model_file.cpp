@@ -11,6 +11,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <numeric>
 
 namespace graze {
 
@@ -90,118 +91,106 @@ private:
     void name_definitions(const TomlEntry& group) { name_items(group, model_.definitions); }
     void name_modes(const TomlEntry& group) { name_items(group, model_.modes); }
 
+    std::vector<TomlEntry> entries(const TomlEntry& group) const {
+        return reader_.entries(reader_.table(group), group.path);
+    }
+
     /// Names are read before all contents, which may refer to them in any order.
     template <typename Item>
     void name_items(const TomlEntry& group, std::vector<Item>& items) {
-        for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
+        for (const TomlEntry& entry : entries(group)) {
             places_.set(entry.path, entry.place);
-            Item item;
-            item.name = entry.name;
-            items.push_back(std::move(item));
+            items.emplace_back().name = entry.name;
         }
+    }
+    /// Reads the contents of the items that have been named.
+    template <typename Item, typename Read>
+    void fill_items(const TomlEntry& group, std::vector<Item>& items, const Read& read) {
+        auto item = items.begin();
+        for (const TomlEntry& entry : entries(group)) {
+            Item& one = *item++;
+            mistakes_.attempt([&] { read(entry, one); });
+        }
+    }
+    /// Adds an item for each entry that is read without a mistake.
+    template <typename Item, typename Read>
+    void add_items(const TomlEntry& group, std::vector<Item>& items, const Read& read) {
+        for (const TomlEntry& entry : entries(group))
+            mistakes_.attempt([&] {
+                places_.set(entry.path, entry.place);
+                Item item;
+                item.name = entry.name;
+                read(entry, item);
+                items.push_back(std::move(item));
+            });
     }
 
     /// A number written as an expression, such as 30*pi/180, depends on no parameter and can be changed like a number.
-    static void set_value(Parameter& parameter, const Expression& value) {
-        if (value.is_number())
+    void read_value(const TomlEntry& part, Parameter& parameter) {
+        if (part.node->is_number())
+            parameter.value = number(part);
+        else if (const Expression value = expression(part); value.is_number())
             parameter.value = value.node().value;
         else
             parameter.expression = value;
     }
 
     void read_parameters(const TomlEntry& group) {
-        auto item = model_.parameters.begin();
-        for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
-            Parameter& parameter = *item++;
-            mistakes_.attempt([&] {
-                for (const TomlEntry& part : short_form(entry, "value", {"value", "unit", "text"})) {
-                    if (part.name == "value" && part.node->is_number())
-                        parameter.value = number(part);
-                    else if (part.name == "value")
-                        set_value(parameter, expression(part));
-                    else
-                        read_words(part, parameter.unit, parameter.text);
-                }
-                if (!parameter.value && !parameter.expression)
-                    fail_missing(entry, "value", "value");
-            });
-        }
-    }
-
-    void read_words(const TomlEntry& part, std::string& unit, std::string& text) const {
-        if (part.name == "unit")
-            unit = reader_.line(part);
-        else
-            text = reader_.string(part);
+        fill_items(group, model_.parameters, [&](const TomlEntry& entry, Parameter& parameter) {
+            read_value_or_parts(entry, {{"value", [&](const TomlEntry& part) { read_value(part, parameter); }},
+                                        {"unit", line_into(parameter.unit)},
+                                        {"text", text_into(parameter.text)}});
+            if (!parameter.value && !parameter.expression)
+                fail_missing(entry, "value", "value");
+        });
     }
 
     void read_states(const TomlEntry& group) {
-        auto item = model_.states.begin();
-        for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
-            State& state = *item++;
-            mistakes_.attempt([&] {
-                for (const TomlEntry& part :
-                     short_form(entry, "initial", {"initial", "unit", "text", "period", "drifting"})) {
-                    if (part.name == "initial")
-                        state.initial = expression(part);
-                    else if (part.name == "period")
-                        state.period = expression(part);
-                    else if (part.name == "drifting")
-                        state.drifting = reader_.boolean(part);
-                    else
-                        read_words(part, state.unit, state.text);
-                }
-                if (state.initial.empty())
-                    fail_missing(entry, "initial value", "initial");
-            });
-        }
+        fill_items(group, model_.states, [&](const TomlEntry& entry, State& state) {
+            read_value_or_parts(entry,
+                                {{"initial", expression_into(state.initial)},
+                                 {"unit", line_into(state.unit)},
+                                 {"text", text_into(state.text)},
+                                 {"period", [&](const TomlEntry& part) { state.period = expression(part); }},
+                                 {"drifting", [&](const TomlEntry& part) { state.drifting = reader_.boolean(part); }}});
+            if (state.initial.empty())
+                fail_missing(entry, "initial value", "initial");
+        });
     }
 
     void read_definitions(const TomlEntry& group) {
-        auto item = model_.definitions.begin();
-        for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
-            Definition& definition = *item++;
-            mistakes_.attempt([&] {
-                for (const TomlEntry& part : short_form(entry, "value", {"value", "text"})) {
-                    if (part.name == "value")
-                        definition.value = expression(part);
-                    else
-                        definition.text = reader_.string(part);
-                }
-                if (definition.value.empty())
-                    fail_missing(entry, "value", "value");
-            });
-        }
+        fill_items(group, model_.definitions, [&](const TomlEntry& entry, Definition& definition) {
+            read_value_or_parts(entry,
+                                {{"value", expression_into(definition.value)}, {"text", text_into(definition.text)}});
+            if (definition.value.empty())
+                fail_missing(entry, "value", "value");
+        });
     }
 
     void read_events(const TomlEntry& group) {
-        for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
-            Event event;
+        for (const TomlEntry& entry : entries(group)) {
+            Event& event = model_.events.emplace_back();
             event.name = entry.name;
+            const auto read_kind = [&](const TomlEntry& part) {
+                event.kind = choice(part, {"barrier", "section"}) == 0 ? EventKind::barrier : EventKind::section;
+            };
             const bool good = mistakes_.attempt([&] {
                 places_.set(entry.path, entry.place);
-                for (const TomlEntry& part : short_form(entry, "function", {"function", "kind", "text"})) {
-                    if (part.name == "function")
-                        event.function = expression(part);
-                    else if (part.name == "kind")
-                        event.kind =
-                            choice(part, {"barrier", "section"}) == 0 ? EventKind::barrier : EventKind::section;
-                    else
-                        event.text = reader_.string(part);
-                }
+                read_value_or_parts(entry, {{"function", expression_into(event.function)},
+                                            {"kind", read_kind},
+                                            {"text", text_into(event.text)}});
                 if (event.function.empty())
                     fail_missing(entry, "function", "function");
             });
             if (!good) // a placeholder for items that refer to the event
                 event.function = model_.graph->number(1);
-            model_.events.push_back(std::move(event));
         }
     }
 
     void read_jumps(const TomlEntry& group) {
         const bool has_text = !model_.find_state("text");
-        for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
-            Jump jump;
+        for (const TomlEntry& entry : entries(group)) {
+            Jump& jump = model_.jumps.emplace_back();
             jump.name = entry.name;
             jump.map = identity();
             mistakes_.attempt([&] {
@@ -209,7 +198,7 @@ private:
                 if (entry.name == "identity")
                     throw InputError(entry.place, "the jump 'identity' exists always",
                                      "choose another name, or leave it out");
-                std::vector<TomlEntry> states = reader_.entries(reader_.table(entry), entry.path);
+                std::vector<TomlEntry> states = entries(entry);
                 // "text" describes the jump, unless a state has that name.
                 if (has_text)
                     std::erase_if(states, [&](const TomlEntry& part) {
@@ -219,78 +208,58 @@ private:
                     });
                 jump.map = state_map(states);
             });
-            model_.jumps.push_back(std::move(jump));
         }
     }
 
     void read_modes(const TomlEntry& group) {
-        auto item = model_.modes.begin();
-        for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
-            Mode& mode = *item++;
-            mistakes_.attempt([&] {
-                mode.rates.resize(model_.states.size());
-                Place rates = entry.place;
-                for (const TomlEntry& part :
-                     reader_.entries(reader_.table(entry), entry.path, {"text", "rates", "watch"})) {
-                    places_.set(part.path, part.place);
-                    if (part.name == "text") {
-                        mode.text = reader_.string(part);
-                    } else if (part.name == "watch") {
-                        for (const TomlEntry& event : reader_.elements(part))
-                            mode.watched.push_back(index(event, model_.events, "event"));
-                    } else {
-                        rates = part.place;
-                        for (const TomlEntry& rate : reader_.entries(reader_.table(part), part.path))
-                            mode.rates[key_index(rate, model_.states, "state")] = expression(rate);
-                    }
-                }
-                for (std::size_t i = 0; i < mode.rates.size(); ++i)
-                    if (mode.rates[i].empty())
-                        throw InputError(
-                            rates,
-                            fmt::format("mode '{}' has no rate for the state '{}'", mode.name, model_.states[i].name),
-                            fmt::format("add {} = \"...\" to the rates; 0 for a state that does not move",
-                                        model_.states[i].name));
-            });
-        }
+        fill_items(group, model_.modes, [&](const TomlEntry& entry, Mode& mode) {
+            mode.rates.resize(model_.states.size());
+            Place rates = entry.place;
+            const auto read_rates = [&](const TomlEntry& part) {
+                places_.set(part.path, part.place);
+                rates = part.place;
+                for (const TomlEntry& rate : entries(part))
+                    mode.rates[key_index(rate, model_.states, "state")] = expression(rate);
+            };
+            const auto read_watch = [&](const TomlEntry& part) {
+                places_.set(part.path, part.place);
+                for (const TomlEntry& event : reader_.elements(part))
+                    mode.watched.push_back(index(event, model_.events, "event"));
+            };
+            read_parts(entry, {{"text", text_into(mode.text)}, {"rates", read_rates}, {"watch", read_watch}});
+            for (std::size_t i = 0; i < mode.rates.size(); ++i)
+                if (const std::string& state = model_.states[i].name; mode.rates[i].empty())
+                    throw InputError(
+                        rates, fmt::format("mode '{}' has no rate for the state '{}'", mode.name, state),
+                        fmt::format("add {} = \"...\" to the rates; 0 for a state that does not move", state));
+        });
     }
 
     void read_transitions(const TomlEntry& group) {
-        for (const TomlEntry& entry : reader_.elements(group)) {
+        for (const TomlEntry& entry : reader_.elements(group))
             mistakes_.attempt([&] {
                 places_.set(entry.path, entry.place);
                 Transition transition;
-                bool has_mode = false;
-                bool has_event = false;
-                for (const TomlEntry& part : reader_.entries(reader_.table(entry), entry.path,
-                                                             {"mode", "event", "label", "jump", "next", "chatter"})) {
-                    if (part.name == "mode") {
-                        transition.mode = index(part, model_.modes, "mode");
-                        has_mode = true;
-                    } else if (part.name == "event") {
-                        transition.event = index(part, model_.events, "event");
-                        has_event = true;
-                    } else if (part.name == "label") {
-                        transition.label = reader_.line(part);
-                    } else if (part.name == "jump") {
-                        transition.jump = index(part, model_.jumps, "jump");
-                    } else if (part.name == "next") {
-                        transition.next = read_next(part);
-                    } else {
-                        transition.chatter = read_chatter(part);
-                    }
-                }
-                if (!has_mode)
+                std::optional<std::size_t> mode, event;
+                read_parts(entry,
+                           {{"mode", index_into(mode, model_.modes, "mode")},
+                            {"event", index_into(event, model_.events, "event")},
+                            {"label", line_into(transition.label)},
+                            {"jump", index_into(transition.jump, model_.jumps, "jump")},
+                            {"next", [&](const TomlEntry& part) { transition.next = read_next(part); }},
+                            {"chatter", [&](const TomlEntry& part) { transition.chatter = read_chatter(part); }}});
+                if (!mode)
                     fail_missing(entry, "mode", "mode");
-                if (!has_event)
+                if (!event)
                     fail_missing(entry, "event", "event");
                 if (transition.next.empty())
                     fail_missing(entry, "next mode", "next");
+                transition.mode = *mode;
+                transition.event = *event;
                 if (transition.label.empty())
-                    transition.label = model_.modes[transition.mode].name + ":" + model_.events[transition.event].name;
+                    transition.label = model_.modes[*mode].name + ":" + model_.events[*event].name;
                 model_.transitions.push_back(std::move(transition));
             });
-        }
     }
 
     std::optional<std::size_t> next_mode(const TomlEntry& entry) {
@@ -307,129 +276,89 @@ private:
             reader_.fail_type(entry, "the name of a mode or a list of alternatives");
         std::vector<Alternative> result;
         for (const TomlEntry& element : reader_.elements(entry)) {
-            Alternative alternative;
+            Alternative& alternative = result.emplace_back();
             bool has_mode = false;
-            for (const TomlEntry& part : reader_.entries(reader_.table(element), element.path, {"when", "mode"})) {
-                if (part.name == "mode") {
-                    alternative.mode = next_mode(part);
-                    has_mode = true;
-                } else {
-                    alternative.when_text = reader_.string(part);
-                    alternative.when = conditions(part);
-                }
-            }
+            const auto read_when = [&](const TomlEntry& part) {
+                alternative.when_text = reader_.string(part);
+                alternative.when = conditions(part);
+            };
+            const auto read_mode = [&](const TomlEntry& part) {
+                alternative.mode = next_mode(part);
+                has_mode = true;
+            };
+            read_parts(element, {{"when", read_when}, {"mode", read_mode}});
             if (!has_mode)
                 fail_missing(element, "mode", "mode");
-            result.push_back(std::move(alternative));
         }
         return result;
     }
 
     Sticking read_chatter(const TomlEntry& entry) {
-        Sticking sticking{0, model_.modes.size()};
-        for (const TomlEntry& part : reader_.entries(reader_.table(entry), entry.path, {"jump", "mode"})) {
-            if (part.name == "jump")
-                sticking.jump = index(part, model_.jumps, "jump");
-            else
-                sticking.mode = index(part, model_.modes, "mode");
-        }
-        if (sticking.mode == model_.modes.size())
+        std::size_t jump = 0;
+        std::optional<std::size_t> mode;
+        read_parts(entry, {{"jump", index_into(jump, model_.jumps, "jump")},
+                           {"mode", index_into(mode, model_.modes, "mode")}});
+        if (!mode)
             fail_missing(entry, "mode", "mode");
-        return sticking;
+        return {jump, *mode};
     }
 
     void read_sections(const TomlEntry& group) {
-        for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
-            mistakes_.attempt([&] {
-                places_.set(entry.path, entry.place);
-                Section section;
-                section.name = entry.name;
-                const TomlEntry* direction = nullptr;
-                const std::vector<TomlEntry> parts = reader_.entries(
-                    reader_.table(entry), entry.path, {"function", "direction", "state", "value", "text"});
-                for (const TomlEntry& part : parts) {
-                    if (part.name == "function")
-                        section.function = expression(part);
-                    else if (part.name == "state")
-                        section.state = index(part, model_.states, "state");
-                    else if (part.name == "value")
-                        section.value = expression(part);
-                    else if (part.name == "text")
-                        section.text = reader_.string(part);
-                    else
-                        direction = &part;
-                }
-                if (section.function.empty() == !section.state)
-                    throw InputError(entry.place, fmt::format("{} needs either a function or a state", entry.path),
-                                     "give function = \"...\", or state = \"...\" and value = ...");
-                if (section.state.has_value() == section.value.empty())
-                    throw InputError(entry.place, fmt::format("{}: state and value belong together", entry.path),
-                                     "give state = \"...\" and value = ...");
-                if (direction != nullptr && section.state)
-                    throw InputError(direction->place, fmt::format("{} cannot have a direction", entry.path),
-                                     "a phase section is passed as the phase moves: leave direction out");
-                constexpr std::array directions{Direction::falling, Direction::rising, Direction::both};
-                if (direction != nullptr)
-                    section.direction = directions[choice(*direction, {"falling", "rising", "both"})];
-                model_.sections.push_back(std::move(section));
-            });
-        }
+        add_items(group, model_.sections, [&](const TomlEntry& entry, Section& section) {
+            std::optional<TomlEntry> direction;
+            read_parts(entry, {{"function", expression_into(section.function)},
+                               {"direction", [&](const TomlEntry& part) { direction = part; }},
+                               {"state", index_into(section.state, model_.states, "state")},
+                               {"value", expression_into(section.value)},
+                               {"text", text_into(section.text)}});
+            if (section.function.empty() == !section.state)
+                throw InputError(entry.place, fmt::format("{} needs either a function or a state", entry.path),
+                                 "give function = \"...\", or state = \"...\" and value = ...");
+            if (section.state.has_value() == section.value.empty())
+                throw InputError(entry.place, fmt::format("{}: state and value belong together", entry.path),
+                                 "give state = \"...\" and value = ...");
+            if (direction && section.state)
+                throw InputError(direction->place, fmt::format("{} cannot have a direction", entry.path),
+                                 "a phase section is passed as the phase moves: leave direction out");
+            constexpr std::array directions{Direction::falling, Direction::rising, Direction::both};
+            if (direction)
+                section.direction = directions[choice(*direction, {"falling", "rising", "both"})];
+        });
     }
 
     void read_symmetries(const TomlEntry& group) {
-        for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
-            mistakes_.attempt([&] {
-                places_.set(entry.path, entry.place);
-                Symmetry symmetry;
-                symmetry.name = entry.name;
-                symmetry.map = model_.state_symbols();
-                for (std::size_t i = 0; i < model_.modes.size(); ++i)
-                    symmetry.modes.push_back(i);
-                for (const TomlEntry& part :
-                     reader_.entries(reader_.table(entry), entry.path, {"map", "modes", "text"})) {
-                    if (part.name == "text") {
-                        symmetry.text = reader_.string(part);
-                    } else if (part.name == "map") {
-                        symmetry.map = state_map(reader_.entries(reader_.table(part), part.path));
-                    } else {
-                        for (const TomlEntry& mode : reader_.entries(reader_.table(part), part.path)) {
-                            const std::size_t from = key_index(mode, model_.modes, "mode");
-                            symmetry.modes[from] = index(mode, model_.modes, "mode");
-                        }
-                    }
+        add_items(group, model_.symmetries, [&](const TomlEntry& entry, Symmetry& symmetry) {
+            symmetry.map = model_.state_symbols();
+            symmetry.modes.resize(model_.modes.size());
+            std::iota(symmetry.modes.begin(), symmetry.modes.end(), std::size_t{0});
+            const auto read_mode_images = [&](const TomlEntry& part) {
+                for (const TomlEntry& mode : entries(part)) {
+                    const std::size_t from = key_index(mode, model_.modes, "mode");
+                    symmetry.modes[from] = index(mode, model_.modes, "mode");
                 }
-                model_.symmetries.push_back(std::move(symmetry));
-            });
-        }
+            };
+            read_parts(entry, {{"map", [&](const TomlEntry& part) { symmetry.map = state_map(entries(part)); }},
+                               {"modes", read_mode_images},
+                               {"text", text_into(symmetry.text)}});
+        });
     }
 
     void read_quantities(const TomlEntry& group) {
-        for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
-            mistakes_.attempt([&] {
-                places_.set(entry.path, entry.place);
-                Quantity quantity;
-                quantity.name = entry.name;
-                for (const TomlEntry& part : short_form(entry, "value", {"value", "unit", "text"})) {
-                    if (part.name == "value")
-                        quantity.value = expression(part);
-                    else
-                        read_words(part, quantity.unit, quantity.text);
-                }
-                if (quantity.value.empty())
-                    fail_missing(entry, "value", "value");
-                model_.quantities.push_back(std::move(quantity));
-            });
-        }
+        add_items(group, model_.quantities, [&](const TomlEntry& entry, Quantity& quantity) {
+            read_value_or_parts(entry, {{"value", expression_into(quantity.value)},
+                                        {"unit", line_into(quantity.unit)},
+                                        {"text", text_into(quantity.text)}});
+            if (quantity.value.empty())
+                fail_missing(entry, "value", "value");
+        });
     }
 
     void read_initial(const TomlEntry& entry) {
-        bool has_mode = false;
-        for (const TomlEntry& part : reader_.entries(reader_.table(entry), entry.path, {"mode"})) {
-            model_.initial_mode = index(part, model_.modes, "mode");
-            has_mode = true;
-        }
-        if (!has_mode && model_.modes.size() > 1)
+        std::optional<std::size_t> mode;
+        read_parts(entry, {{"mode", index_into(mode, model_.modes, "mode")}});
+        if (!mode && model_.modes.size() > 1)
             fail_missing(entry, "mode", "mode");
+        model_.initial_mode = mode.value_or(model_.initial_mode);
     }
 
     toml::table root_;

@@ -12,15 +12,6 @@
 
 namespace graze {
 
-void ModelParts::make_scope() {
-    for (const Parameter& parameter : model_.parameters)
-        scope_.emplace(parameter.name, model_.symbol(parameter.name));
-    for (const State& state : model_.states)
-        scope_.emplace(state.name, model_.symbol(state.name));
-    for (const Definition& definition : model_.definitions)
-        scope_.emplace(definition.name, model_.symbol(definition.name));
-}
-
 /// Returns an error in the value of a string (parsed as if it were a file of its own) with its place in this file.
 InputError ModelParts::inside(const TomlEntry& entry, const std::string& text, const InputError& error) const {
     const std::size_t offset = SourceText(text, "").position(error.place());
@@ -75,13 +66,26 @@ std::vector<Condition> ModelParts::conditions(const TomlEntry& entry) {
     return result;
 }
 
-std::vector<TomlEntry> ModelParts::short_form(const TomlEntry& entry, const char* key,
-                                              std::initializer_list<std::string_view> allowed) const {
+void ModelParts::read_parts(const TomlEntry& entry, std::initializer_list<Part> parts) const {
+    const std::vector<TomlEntry> given = reader_.entries(reader_.table(entry), entry.path);
+    std::vector<std::string> keys;
+    for (const Part& part : parts)
+        keys.emplace_back(part.key);
+    Mistakes unknown;
+    for (const TomlEntry& one : given)
+        unknown.attempt([&] { reader_.require_one_of(keys, one, entry.path); });
+    unknown.throw_noted();
+    for (const TomlEntry& one : given)
+        std::ranges::find(parts, one.name, &Part::key)->read(one);
+}
+
+void ModelParts::read_value_or_parts(const TomlEntry& entry, std::initializer_list<Part> parts) const {
     if (entry.node->is_table())
-        return reader_.entries(*entry.node->as_table(), entry.path, allowed);
+        return read_parts(entry, parts);
     if (!entry.node->is_number() && !entry.node->is_string())
         reader_.fail_type(entry, "a number, an expression or a table");
-    return {{key, entry.path + "." + key, entry.place, entry.node}};
+    const std::string key(parts.begin()->key);
+    parts.begin()->read({key, entry.path + "." + key, entry.place, entry.node});
 }
 
 const StateMap& ModelParts::identity() {

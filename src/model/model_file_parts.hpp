@@ -3,6 +3,7 @@
 #include "graze/base/input_errors.hpp"
 #include "graze/model/model.hpp"
 #include "graze/symbolic/parser.hpp"
+#include "model/model_expressions.hpp"
 #include "model/model_file_toml.hpp"
 #include "model/model_places.hpp"
 
@@ -24,7 +25,7 @@ protected:
         : source_(text, file), reader_(file), places_(file, &source_) {}
 
     /// Makes the names of parameters, states and definitions known to expressions.
-    void make_scope();
+    void make_scope() { scope_ = scope_of(model_); }
 
     /// Reads a number or the text of an expression. A mistake is noted, and a placeholder number returned.
     Expression expression(const TomlEntry& entry);
@@ -32,9 +33,29 @@ protected:
     double number(const TomlEntry& entry);
     /// Reads conditions. Wrong ones are noted and left out.
     std::vector<Condition> conditions(const TomlEntry& entry);
-    /// Returns the entries of a table, or of the short form: a single value that stands for `{ key = value }`.
-    std::vector<TomlEntry> short_form(const TomlEntry& entry, const char* key,
-                                      std::initializer_list<std::string_view> allowed) const;
+    /// A key of a table, and what reads its value.
+    struct Part {
+        std::string_view key;
+        std::function<void(const TomlEntry&)> read;
+    };
+    /// Reads the parts of a table in the order of the file. @throws InputErrors for keys that are not among them
+    void read_parts(const TomlEntry& entry, std::initializer_list<Part> parts) const;
+    /// The same where a single value may stand for a table with the first key only.
+    void read_value_or_parts(const TomlEntry& entry, std::initializer_list<Part> parts) const;
+    auto expression_into(Expression& to) {
+        return [this, &to](const TomlEntry& entry) { to = expression(entry); };
+    }
+    auto line_into(std::string& to) const {
+        return [this, &to](const TomlEntry& entry) { to = reader_.line(entry); };
+    }
+    auto text_into(std::string& to) const {
+        return [this, &to](const TomlEntry& entry) { to = reader_.string(entry); };
+    }
+    /// @param to receives the index of the item that a string names
+    template <typename Index, typename Item>
+    auto index_into(Index& to, const std::vector<Item>& items, const char* kind) {
+        return [this, &to, &items, kind](const TomlEntry& entry) { to = index(entry, items, kind); };
+    }
     /// Reads a map of states; states that are not mentioned are unchanged.
     StateMap state_map(const std::vector<TomlEntry>& entries);
     /// Returns the identity map. To be called when all states have their names.

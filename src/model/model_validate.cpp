@@ -91,13 +91,13 @@ public:
         check_expressions();
         check_circles();
         Mistakes mistakes; // transitions and sections are checked independently
-        std::set<std::pair<std::size_t, std::size_t>> served;
+        std::set<std::pair<std::size_t, std::size_t>> with_transition;
         for (std::size_t i = 0; i < model_.transitions.size(); ++i)
-            mistakes.attempt([&] { check_transition(i, served); });
+            mistakes.attempt([&] { check_transition(i, with_transition); });
         for (const Mode& mode : model_.modes) {
             std::set<std::size_t> watched;
             for (std::size_t i = 0; i < mode.watched.size(); ++i)
-                mistakes.attempt([&] { check_watched(mode, i, watched, served); });
+                mistakes.attempt([&] { check_watched(mode, i, watched, with_transition); });
         }
         for (const Section& section : model_.sections)
             mistakes.attempt([&] { check_section(section); });
@@ -261,11 +261,11 @@ private:
                          "define one of them without the others");
     }
 
-    /// @param served pairs (mode, event) of the earlier transitions
-    void check_transition(std::size_t index, std::set<std::pair<std::size_t, std::size_t>>& served) const {
+    /// @param with_transition pairs (mode, event) of the earlier transitions
+    void check_transition(std::size_t index, std::set<std::pair<std::size_t, std::size_t>>& with_transition) const {
         const Transition& transition = model_.transitions[index];
         const std::string path = fmt::format("transitions.{}", index + 1);
-        if (!served.emplace(transition.mode, transition.event).second)
+        if (!with_transition.emplace(transition.mode, transition.event).second)
             fail(path,
                  fmt::format("there is a second transition for event '{}' in mode '{}'",
                              model_.events[transition.event].name, model_.modes[transition.mode].name),
@@ -277,7 +277,7 @@ private:
 
     /// @param watched events that precede this one in the mode's list
     void check_watched(const Mode& mode, std::size_t place, std::set<std::size_t>& watched,
-                       const std::set<std::pair<std::size_t, std::size_t>>& served) const {
+                       const std::set<std::pair<std::size_t, std::size_t>>& with_transition) const {
         const std::size_t index = mode.watched[place];
         const Event& event = model_.events[index];
         const std::string item = fmt::format("modes.{}.watch.{}", mode.name, place + 1);
@@ -285,7 +285,7 @@ private:
             fail(item, fmt::format("mode '{}' watches event '{}' twice", mode.name, event.name),
                  "remove one of the two");
         const auto of_mode = static_cast<std::size_t>(&mode - model_.modes.data());
-        if (event.kind == EventKind::barrier && !served.contains({of_mode, index}))
+        if (event.kind == EventKind::barrier && !with_transition.contains({of_mode, index}))
             fail(item,
                  fmt::format("mode '{}' watches the barrier '{}' but has no transition for it", mode.name, event.name),
                  fmt::format("add [[transitions]] with mode = \"{}\" and event = \"{}\", or make the event a "

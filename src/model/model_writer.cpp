@@ -23,9 +23,7 @@ std::string quoted(const std::string& text) {
         const auto code = static_cast<unsigned char>(c);
         if (c == '"' || c == '\\')
             result += {'\\', c};
-        else if (c == '\n' || c == '\t')
-            result += c;
-        else if (code < 0x20 || code == 0x7f)
+        else if ((code < 0x20 && c != '\n' && c != '\t') || code == 0x7f)
             result += fmt::format("\\u{:04X}", code);
         else
             result += c;
@@ -44,31 +42,25 @@ std::string value_text(const Expression& expression) {
     return expression.is_number() ? number_text(expression.node().value) : quoted(to_string(expression));
 }
 
-/// Collects the parts of an inline table; parts with empty values are left out.
-class InlineTable {
-public:
-    void add(const char* key, const std::string& written) { parts_.push_back(fmt::format("{} = {}", key, written)); }
-    void add_string(const char* key, const std::string& text) {
-        if (!text.empty())
-            add(key, quoted(text));
-    }
-    std::size_t size() const { return parts_.size(); }
-    std::string text() const { return fmt::format("{{ {} }}", fmt::join(parts_, ", ")); }
+/// Returns "" for an empty text, which is left out.
+std::string quoted_if_any(const std::string& text) {
+    return text.empty() ? "" : quoted(text);
+}
 
-private:
-    std::vector<std::string> parts_;
-};
+/// Keys and values of an inline table; empty values are left out.
+using Parts = std::vector<std::pair<const char*, std::string>>;
+
+std::string inline_table(const Parts& parts) {
+    std::vector<std::string> written;
+    for (const auto& [key, value] : parts)
+        if (!value.empty())
+            written.push_back(fmt::format("{} = {}", key, value));
+    return fmt::format("{{ {} }}", fmt::join(written, ", "));
+}
 
 class ModelWriter {
 public:
-    explicit ModelWriter(const Model& model) : model_(model), states_(model.state_symbols()) {
-        for (const Expression& symbol : states_)
-            scope_.emplace(symbol.name(), symbol);
-        for (const Parameter& parameter : model.parameters)
-            scope_.emplace(parameter.name, model.symbol(parameter.name));
-        for (const Definition& definition : model.definitions)
-            scope_.emplace(definition.name, model.symbol(definition.name));
-    }
+    explicit ModelWriter(const Model& model) : model_(model), states_(model.state_symbols()), scope_(scope_of(model)) {}
 
     std::string write() {
         line("name = {}", quoted(model_.name));
@@ -98,9 +90,11 @@ private:
         if (!text.empty())
             line("{} = {}", key, quoted(text));
     }
-    /// Writes the short form `key = value` when there is only a value.
-    void item(const std::string& key, const std::string& value, const InlineTable& table) {
-        line("{} = {}", key, table.size() == 1 ? value : table.text());
+    /// Writes the short form `key = value` when there is only the first part, the value.
+    void item(const std::string& key, const Parts& parts) {
+        const bool only_value =
+            std::all_of(parts.begin() + 1, parts.end(), [](const auto& part) { return part.second.empty(); });
+        line("{} = {}", key, only_value ? parts.front().second : inline_table(parts));
     }
     const std::string& mode_name(std::size_t mode) const { return model_.modes[mode].name; }
 
@@ -111,32 +105,20 @@ private:
             // A dependent parameter is written as a string even if it is a number, so that it stays dependent.
             const std::string value = parameter.expression ? quoted(to_string(*parameter.expression))
                                                            : number_text(parameter.value.value_or(std::nan("")));
-            InlineTable table;
-            table.add("value", value);
-            table.add_string("unit", parameter.unit);
-            table.add_string("text", parameter.text);
-            item(parameter.name, value, table);
+            item(parameter.name,
+                 {{"value", value}, {"unit", quoted_if_any(parameter.unit)}, {"text", quoted_if_any(parameter.text)}});
         }
         line("\n[states]");
-        for (const State& state : model_.states) {
-            InlineTable table;
-            table.add("initial", value_text(state.initial));
-            if (state.period)
-                table.add("period", value_text(*state.period));
-            if (state.drifting)
-                table.add("drifting", "true");
-            table.add_string("unit", state.unit);
-            table.add_string("text", state.text);
-            item(state.name, value_text(state.initial), table);
-        }
+        for (const State& state : model_.states)
+            item(state.name, {{"initial", value_text(state.initial)},
+                              {"period", state.period ? value_text(*state.period) : ""},
+                              {"drifting", state.drifting ? "true" : ""},
+                              {"unit", quoted_if_any(state.unit)},
+                              {"text", quoted_if_any(state.text)}});
         if (!model_.definitions.empty())
             line("\n[definitions]");
-        for (const Definition& definition : model_.definitions) {
-            InlineTable table;
-            table.add("value", value_text(definition.value));
-            table.add_string("text", definition.text);
-            item(definition.name, value_text(definition.value), table);
-        }
+        for (const Definition& definition : model_.definitions)
+            item(definition.name, {{"value", value_text(definition.value)}, {"text", quoted_if_any(definition.text)}});
     }
 
     void write_modes() {
@@ -190,10 +172,7 @@ private:
         if (!alternative.when_text.empty()) {
             try {
                 const std::vector<Condition> read = parse_conditions(*model_.graph, alternative.when_text, scope_);
-                const auto same = [](const Condition& one, const Condition& other) {
-                    return one.function == other.function && one.strict == other.strict;
-                };
-                if (std::equal(read.begin(), read.end(), alternative.when.begin(), alternative.when.end(), same))
+                if (read == alternative.when)
                     return alternative.when_text;
             } catch (const InputError&) {
                 // The text of a model built from C++ may be a description instead of conditions.
@@ -223,11 +202,8 @@ private:
             } else {
                 line("next = [");
                 for (const Alternative& alternative : transition.next) {
-                    InlineTable table;
-                    if (!alternative.when.empty())
-                        table.add("when", quoted(conditions_text(alternative)));
-                    table.add("mode", next(alternative));
-                    line("    {},", table.text());
+                    const std::string when = alternative.when.empty() ? "" : quoted(conditions_text(alternative));
+                    line("    {},", inline_table({{"when", when}, {"mode", next(alternative)}}));
                 }
                 line("]");
             }
@@ -269,13 +245,10 @@ private:
     void write_quantities() {
         if (!model_.quantities.empty())
             line("\n[quantities]");
-        for (const Quantity& quantity : model_.quantities) {
-            InlineTable table;
-            table.add("value", value_text(quantity.value));
-            table.add_string("unit", quantity.unit);
-            table.add_string("text", quantity.text);
-            item(quantity.name, value_text(quantity.value), table);
-        }
+        for (const Quantity& quantity : model_.quantities)
+            item(quantity.name, {{"value", value_text(quantity.value)},
+                                 {"unit", quoted_if_any(quantity.unit)},
+                                 {"text", quoted_if_any(quantity.text)}});
     }
 
     const Model& model_;

@@ -3,7 +3,7 @@
 #include "base/letter_case.hpp"
 #include "graze/base/trimmed.hpp"
 #include "graze/symbolic/function.hpp"
-#include "graze/symbolic/parser.hpp"
+#include "model/model_expressions.hpp"
 
 #include <fmt/format.h>
 
@@ -12,19 +12,6 @@
 namespace graze {
 
 namespace {
-
-Scope scope_of(const Model& model) {
-    Scope scope;
-    for (const Quantity& quantity : model.quantities)
-        scope.insert_or_assign(quantity.name, quantity.value);
-    for (const Parameter& parameter : model.parameters)
-        scope.insert_or_assign(parameter.name, model.symbol(parameter.name));
-    for (const State& state : model.states)
-        scope.insert_or_assign(state.name, model.symbol(state.name));
-    for (const Definition& definition : model.definitions)
-        scope.insert_or_assign(definition.name, model.symbol(definition.name));
-    return scope;
-}
 
 constexpr std::string_view blanks = " \t\n";
 
@@ -53,8 +40,11 @@ NamedValue named_value(const Model& model, const std::string& text, const Place&
         const Quantity& quantity = model.quantities[*index];
         return {quantity.name, quantity.unit, quantity.text, scratch.expand(quantity.value)};
     }
+    Scope scope = scope_of(scratch);
+    for (const Quantity& quantity : scratch.quantities)
+        scope.emplace(quantity.name, quantity.value);
     NamedValue result{text, "", "", {}};
-    result.value = scratch.expand(parse_expression(*scratch.graph, text, scope_of(scratch), place));
+    result.value = scratch.expand(parse_expression(*scratch.graph, text, scope, place));
     if (parameter) {
         result.unit = model.parameters[*parameter].unit;
         result.text = model.parameters[*parameter].text;

@@ -1,6 +1,5 @@
 #include "graze/model/parameter_file.hpp"
 
-#include "graze/base/input_error.hpp"
 #include "graze/base/text_file.hpp"
 #include "model/model_file_toml.hpp"
 

@@ -155,33 +155,17 @@ Token Lexer::number() {
 
 Token Lexer::symbol() {
     using Kind = Token::Kind;
-    const char second = character(1);
-    switch (character()) {
-    case '+':
-        return take(Kind::plus, 1);
-    case '-':
-        return take(Kind::minus, 1);
-    case '*':
-        if (second == '*')
-            source_.fail(offset_, "'**' is not an operator", "write a^b for a power");
-        return take(Kind::times, 1);
-    case '/':
-        return take(Kind::divide, 1);
-    case '^':
-        return take(Kind::power, 1);
-    case '(':
-        return take(Kind::open, 1);
-    case ')':
-        return take(Kind::close, 1);
-    case ',':
-        return take(Kind::comma, 1);
-    case '<':
-        return second == '=' ? take(Kind::less_equal, 2) : take(Kind::less, 1);
-    case '>':
-        return second == '=' ? take(Kind::greater_equal, 2) : take(Kind::greater, 1);
-    default:
-        refuse_character();
-    }
+    constexpr std::pair<std::string_view, Kind> symbols[] = {
+        {"+", Kind::plus},        {"-", Kind::minus},          {"*", Kind::times}, {"/", Kind::divide},
+        {"^", Kind::power},       {"(", Kind::open},           {")", Kind::close}, {",", Kind::comma},
+        {"<=", Kind::less_equal}, {">=", Kind::greater_equal}, {"<", Kind::less},  {">", Kind::greater}};
+    const std::string_view rest = source_.text.substr(offset_);
+    if (rest.starts_with("**"))
+        source_.fail(offset_, "'**' is not an operator", "write a^b for a power");
+    for (const auto& [text, kind] : symbols)
+        if (rest.starts_with(text))
+            return take(kind, text.size());
+    refuse_character();
 }
 
 void Lexer::refuse_character() const {
@@ -191,17 +175,18 @@ void Lexer::refuse_character() const {
             offset_,
             fmt::format("'{}' cannot be tested: equality of real numbers is a matter of round-off", rest.substr(0, 2)),
             "write an inequality, or an event that happens where the two are equal");
-    if (rest.front() == '=')
-        source_.fail(offset_, "unexpected '='", "write the right-hand side only, or a comparison with <, <=, > or >=");
-    if (rest.starts_with("&&"))
-        source_.fail(offset_, "unexpected '&&'", "write 'and'");
-    if (rest.starts_with("||"))
-        source_.fail(offset_, "'||' cannot join conditions",
-                     "list the mode once more in `next`, with the other condition");
-    if (rest.front() == '!')
-        source_.fail(offset_, "'!' cannot stand in a condition", "turn the comparison round: 'a <= b' for 'not a > b'");
-    if (rest.front() == '%')
-        source_.fail(offset_, "the remainder '%' is not analytic", "declare a cyclic state, or make the jump an event");
+    struct Refused {
+        std::string_view text;
+        const char *problem, *remedy;
+    };
+    for (const auto& [text, problem, remedy] :
+         {Refused{"=", "unexpected '='", "write the right-hand side only, or a comparison with <, <=, > or >="},
+          {"&&", "unexpected '&&'", "write 'and'"},
+          {"||", "'||' cannot join conditions", "list the mode once more in `next`, with the other condition"},
+          {"!", "'!' cannot stand in a condition", "turn the comparison round: 'a <= b' for 'not a > b'"},
+          {"%", "the remainder '%' is not analytic", "declare a cyclic state, or make the jump an event"}})
+        if (rest.starts_with(text))
+            source_.fail(offset_, problem, remedy);
     const std::size_t length = character_length(rest);
     if (length == 0)
         source_.fail(offset_, fmt::format("unexpected byte 0x{:02x}", static_cast<unsigned char>(rest.front())),

@@ -1,7 +1,6 @@
 #include "symbolic/linear_graph.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <queue>

@@ -1,6 +1,5 @@
 #include "graze/symbolic/parser.hpp"
 
-#include "graze/base/input_error.hpp"
 #include "graze/base/name_list.hpp"
 #include "symbolic/lexer.hpp"
 #include "symbolic/vocabulary.hpp"

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "graze/tape/jet.hpp"
-#include "graze/tape/tangent_equations.hpp"
 #include "tape/aligned_numbers.hpp"
 #include "tape/kernel_table.hpp"
 

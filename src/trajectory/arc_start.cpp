@@ -17,7 +17,7 @@ namespace {
 
 /// A jump that keeps the motion on a surface leaves the event function at round-off, which the sizes of the terms of
 /// the function and of the jump may amplify.
-constexpr double served_roundoff = 1e-10;
+constexpr double jump_roundoff = 1e-10;
 
 /// Relative uncertainty of a state after the few operations of a jump.
 constexpr double state_roundoff = 16 * std::numeric_limits<double>::epsilon();
@@ -43,10 +43,9 @@ void Trajectory::begin_arc(double step) {
             return;
     for (Hold& hold : holds_)
         hold.carried = hold.on;
-    for (const std::size_t event : mode.watched) {
+    for (const std::size_t event : mode.watched)
         holds_[event] = {};
-    }
-    served_ = no_event;
+    start_event_ = no_event;
     stuck_ = false;
     together_.clear();
 }
@@ -59,11 +58,11 @@ bool Trajectory::classify(std::size_t w, double step) {
     const Event& definition = simulation_.model().events[event];
     const auto c = event_series(w);
     const double size = series_size(c, step);
-    const bool served = event == served_;
+    const bool began_here = event == start_event_;
     const bool due = is_due(event);
     Watch& watch = watches_[w];
     watch = {};
-    weigh_terms(w);
+    sum_term_sizes(w);
     EventSize& sizes = event_sizes_[event];
     sizes.of_arc = sizes.rate = 0;
     sizes.terms = terms_[0];
@@ -88,10 +87,10 @@ bool Trajectory::classify(std::size_t w, double step) {
     watch.side = c[leading] > 0 ? 1 : -1;
     watch.strip = static_cast<int>(leading);
     if (watch.side > 0)
-        return !(served && leading == 1) || !complete_chatter(w, step);
-    if (definition.kind == EventKind::section && (served || (!due && (leading > 1 || fell_before(w, at_surface)))))
+        return !(began_here && leading == 1) || !complete_chatter(w, step);
+    if (definition.kind == EventKind::section && (began_here || (!due && (leading > 1 || fell_before(w, at_surface)))))
         return true;
-    if (!served) {
+    if (!began_here) {
         make_contact(w, 0);
         return false;
     }
@@ -118,14 +117,15 @@ bool Trajectory::is_due(std::size_t event) const {
     return std::find(together_.begin(), together_.end(), event) != together_.end();
 }
 
-/// Returns how close to zero a watched event's function is on its surface at the start of an arc. Requires weigh_terms.
+/// Returns how close to zero a watched event's function is on its surface at the start of an arc. Requires
+/// sum_term_sizes.
 /// @param size of its series; @param drifted receives the part that is attributed to a drift along the surface, or 0
 double Trajectory::surface_at_start(std::size_t w, double size, double& drifted) {
     const std::size_t event = compiled_mode_->watched[w];
     const double value = event_series(w)[0];
     double at_surface = roundoff * std::max(size, terms_[0]);
-    if (event == served_ || is_due(event))
-        at_surface = std::max(at_surface, served_roundoff * size + 2 * std::abs(surface_values_[event]));
+    if (event == start_event_ || is_due(event))
+        at_surface = std::max(at_surface, jump_roundoff * size + 2 * std::abs(surface_values_[event]));
     else if (value > 0) // not put there by a contact: only round-off of its own terms
         at_surface = roundoff * terms_[0];
     if (value < -at_surface) { // beyond the surface, or within the uncertainty
@@ -141,7 +141,7 @@ double Trajectory::surface_at_start(std::size_t w, double size, double& drifted)
 double Trajectory::uncertainty_at_start(std::size_t w, double size) {
     const System& compiled = simulation_.system();
     std::fill(uncertain_.begin(), uncertain_.end(), 0.0);
-    const bool jumped = served_ != no_event || stuck_;
+    const bool jumped = start_event_ != no_event || stuck_;
     for (std::size_t j = states_; j < inputs_.size(); ++j)
         uncertain_[j] = state_roundoff * std::abs(inputs_[j]);
     values_.resize(std::max(states_, compiled.mode(mode_).events.outputs()));
@@ -175,7 +175,7 @@ void Trajectory::hold_surfaces(std::size_t watched, double s) {
     for (std::size_t w = 0; w < mode.watched.size(); ++w) {
         const auto c = event_series(w);
         const double size = series_size(c, std::max(s, previous_step_));
-        if (w == watched || std::abs(evaluate_polynomial(c, s)) <= served_roundoff * size)
+        if (w == watched || std::abs(evaluate_polynomial(c, s)) <= jump_roundoff * size)
             holds_[mode.watched[w]] = {true, false, steps_, size};
     }
 }
@@ -184,7 +184,7 @@ void Trajectory::hold_surfaces(std::size_t watched, double s) {
 /// contact with which the arc begins: this fall has been handled with the contact. At the start of a trajectory a
 /// section that falls counts as passed, too.
 bool Trajectory::fell_before(std::size_t w, double at_surface) {
-    if (served_ == no_event && !stuck_)
+    if (start_event_ == no_event && !stuck_)
         return true;
     const auto& mode = *compiled_mode_;
     std::copy(before_.begin(), before_.end(), inputs_.begin());
@@ -203,7 +203,7 @@ bool Trajectory::fell_before(std::size_t w, double at_surface) {
 
 /// Sums, for each coefficient of a watched event function, the absolute contributions of the states: the scale of its
 /// round-off, which cancellation hides in the coefficient itself. Requires the inputs of the state.
-void Trajectory::weigh_terms(std::size_t w) {
+void Trajectory::sum_term_sizes(std::size_t w) {
     const System::CompiledGradient& gradient = compiled_mode_->gradients[w];
     values_.resize(gradient.states.size());
     gradient.values.evaluate(inputs_, values_, work_);
@@ -215,7 +215,7 @@ void Trajectory::weigh_terms(std::size_t w) {
 }
 
 /// Returns the first coefficient after the zeroth that exceeds round-off, which decides the sign just after the start
-/// of an arc; 0 if there is none. Requires weigh_terms.
+/// of an arc; 0 if there is none. Requires sum_term_sizes.
 /// @param drift possible distance from a surface along which the motion was moved
 std::size_t Trajectory::leading_coefficient(std::size_t w, double step, double drift) {
     const auto c = event_series(w);

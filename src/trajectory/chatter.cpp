@@ -83,13 +83,13 @@ bool Trajectory::another_event_within(std::size_t w, double time) {
 /// Too many contacts at one time: if each was slower than the one before, an accumulation that the other rules did not
 /// detect (such as that of a block rocking from edge to edge), otherwise an endless cycle of modes.
 void Trajectory::judge_stand_still() {
-    const ContactHistory history = histories_[served_];
+    const ContactHistory history = histories_[start_event_];
     hand_over_contact();
     if (history.count >= simulation_.options().contacts_at_once / 20) {
         before_ = state_;
         if (tangents_)
             row_.assign(tangents_->directions(), 0.0);
-        return come_to_rest(served_, history.transition, 0);
+        return come_to_rest(start_event_, history.transition, 0);
     }
     finish(Ending::no_progress, time_,
            fmt::format("{} events happened at once {}: look for modes that hand over to one another in a circle",
@@ -136,7 +136,7 @@ void Trajectory::come_to_rest(std::size_t event, std::size_t index, double rate)
     contact.mode_before = mode_;
     contact.rate_before = rate;
     pending_ = contact;
-    served_ = no_event;
+    start_event_ = no_event;
     stuck_ = true;
     jump(transition.chatter->jump);
     enter(transition.chatter->jump, transition.chatter->mode);

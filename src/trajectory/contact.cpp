@@ -4,7 +4,6 @@
 
 #include "flow/guard.hpp"
 #include "trajectory/probe_tracker.hpp"
-#include "trajectory/series.hpp"
 #include "trajectory/tangents.hpp"
 
 #include <fmt/format.h>
@@ -43,7 +42,7 @@ void Trajectory::make_contact(std::size_t w, double s) {
     values_.resize(mode.events.outputs());
     mode.events.evaluate(inputs_, values_, work_);
     // Simultaneous events were on their surfaces when found. Jumps made since may have moved the state away from them.
-    const bool first_at_this_time = served_ == no_event && !stuck_;
+    const bool first_at_this_time = start_event_ == no_event && !stuck_;
     std::erase(together_, event);
     for (std::size_t other = 0; other < mode.watched.size(); ++other)
         if (first_at_this_time || other == w)
@@ -66,7 +65,7 @@ void Trajectory::apply_transition(std::size_t transition, double rate) {
     pending_->time = time_;
     pending_->mode_before = pending_->mode_after = mode_;
     pending_->rate_before = rate;
-    served_ = pending_->event;
+    start_event_ = pending_->event;
     stuck_ = false;
     jump(compiled.jump);
     bool ends = false;

@@ -82,7 +82,7 @@ std::size_t Trajectory::find_contact(double& step, const StepPreview& preview, s
         step = root.at;
     }
     if (first != no_event && step + uncertain >= whole)
-        look_beyond(first, step, uncertain);
+        find_simultaneous(first, step, uncertain);
     if (first == no_event)
         first = passed_with_period(whole, preview, lane);
     // A radicand is often the event function itself, as an indentation to the power 3/2: the contact ends where the
@@ -102,7 +102,7 @@ std::size_t Trajectory::find_contact(double& step, const StepPreview& preview, s
 
 /// Adds the events that are simultaneous with a contact at the end of a step but that round-off has put just after it.
 /// @param first may become an event that precedes in the order of the mode
-void Trajectory::look_beyond(std::size_t& first, double step, double uncertain) {
+void Trajectory::find_simultaneous(std::size_t& first, double step, double uncertain) {
     const auto& watched = compiled_mode_->watched;
     for (std::size_t w = 0; w < watched.size(); ++w) {
         if (w == first || watches_[w].side <= 0 ||

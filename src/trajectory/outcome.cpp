@@ -1,35 +1,16 @@
 #include "graze/trajectory/outcome.hpp"
 
+#include <cstddef>
+#include <iterator>
+
 namespace graze {
 
 std::string_view name_of(Ending ending) {
-    switch (ending) {
-    case Ending::running:
-        return "running";
-    case Ending::end_time:
-        return "end-time";
-    case Ending::stopped:
-        return "stopped";
-    case Ending::terminal:
-        return "terminal";
-    case Ending::singular:
-        return "singular";
-    case Ending::undefined:
-        return "undefined";
-    case Ending::inadmissible:
-        return "inadmissible";
-    case Ending::no_transition:
-        return "no-transition";
-    case Ending::chatter:
-        return "chatter";
-    case Ending::no_separation:
-        return "no-separation";
-    case Ending::no_progress:
-        return "no-progress";
-    case Ending::step_limit:
-        return "step-limit";
-    }
-    return "unknown";
+    constexpr std::string_view names[] = {"running",  "end-time",      "stopped",      "terminal",
+                                          "singular", "undefined",     "inadmissible", "no-transition",
+                                          "chatter",  "no-separation", "no-progress",  "step-limit"};
+    const auto place = static_cast<std::size_t>(ending);
+    return place < std::size(names) ? names[place] : "unknown";
 }
 
 bool is_regular(Ending ending) {

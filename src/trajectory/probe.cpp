@@ -2,7 +2,6 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/base/name_list.hpp"
-#include "graze/symbolic/parser.hpp"
 
 #include <fmt/format.h>
 

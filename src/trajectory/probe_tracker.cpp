@@ -1,7 +1,6 @@
 #include "trajectory/probe_tracker.hpp"
 
 #include "base/special_numbers.hpp"
-#include "flow/kept_sign.hpp"
 #include "flow/single_crossing.hpp"
 #include "tape/smallest_size.hpp"
 #include "trajectory/series.hpp"

@@ -5,7 +5,6 @@
 #include "graze/trajectory/observer.hpp"
 #include "graze/trajectory/simulation.hpp"
 
-#include <cmath>
 #include <limits>
 #include <span>
 #include <vector>

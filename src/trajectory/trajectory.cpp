@@ -97,7 +97,7 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
     arc_start_ = true;
     branch_ahead_ = states_;
     stuck_ = false;
-    served_ = no_event;
+    start_event_ = no_event;
     stop_after_contact_ = false;
     pending_.reset();
     together_.clear();

@@ -7,7 +7,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
 
 namespace graze {
@@ -32,23 +31,12 @@ TEST(DerivativeCheck, FindsNothingInShippedModels) {
 TEST(DerivativeCheck, TellsWhichDerivativeDisagreesAndByHowMuch) {
     const System system(parse_model(R"toml(
 name = "corner"
-[parameters]
-p = 1
-[states]
-x = 1
-y = 1
-[modes.only]
-rates = { x = "p*y", y = "sqrt((x - 1)^2 + 1e-30)" }
-watch = ["root"]
-[events]
-root = "log(y - 1) + x"
-[jumps.turn]
-x = "-x"
-[[transitions]]
-mode = "only"
-event = "root"
-jump = "turn"
-next = "only"
+parameters = { p = 1 }
+states = { x = 1, y = 1 }
+modes.only = { rates = { x = "p*y", y = "sqrt((x - 1)^2 + 1e-30)" }, watch = ["root"] }
+events = { root = "log(y - 1) + x" }
+jumps.turn.x = "-x"
+transitions = [{ mode = "only", event = "root", jump = "turn", next = "only" }]
 )toml",
                                     "corner.toml"));
     const auto findings = check_derivatives(system, std::vector{1 + 1e-9, 1.0}, std::vector{1.0});

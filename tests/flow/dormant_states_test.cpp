@@ -75,12 +75,8 @@ TEST(DormantStates, NonlinearChainsAreAsAccurate) {
 TEST(DormantStates, AreNotUsedWhereASmallStateCanBecomeLargeAtOnce) {
     // The bell-shaped term is negligible at first; a floor must not hide it.
     const Model model = parse_model(R"(name = "bell"
-[states]
-s = -20
-y = 0
-[modes.one.rates]
-s = 1
-y = "s*exp(-s^2) + 0*y"
+states = { s = -20, y = 0 }
+modes.one = { rates = { s = 1, y = "s*exp(-s^2) + 0*y" } }
 )",
                                     "bell.toml");
     const Followed run = followed(model, 20);

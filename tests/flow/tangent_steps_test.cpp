@@ -1,6 +1,5 @@
 #include "graze/flow/tangent_steps.hpp"
 
-#include "graze/base/input_error.hpp"
 #include "graze/flow/mode_flow.hpp"
 #include "graze/flow/variational_system.hpp"
 #include "graze/model/model_file.hpp"
@@ -12,7 +11,6 @@
 #include <cmath>
 #include <numbers>
 #include <string>
-#include <vector>
 
 namespace graze {
 namespace {
@@ -256,29 +254,6 @@ TEST(TangentSteps, AgreeWithTheVariationalSystemOfAMeanField) {
             // Derivatives are allowed fifty tolerances, but need only a few.
             EXPECT_NEAR(derivatives[i * (n + 1) + d], both[n + i], 20 * tolerance) << i << ' ' << d;
     }
-}
-
-TEST(TangentSteps, MisuseThrows) {
-    const Model model = parse_model(chain_of(1, 1, 1, 1).model(), "chain.toml");
-    TangentSteps steps(System(model), 1e-9, 2);
-    ModeJets jets(System(model), 10, LaneKind::single), without(System(model), 10, LaneKind::single);
-    jets.add_tangents();
-    EXPECT_THROW(steps.set_parameters({}, {}), InputError);
-    EXPECT_THROW(steps.set_parameters(std::vector{1.0}, std::vector{1.0}), InputError);
-    steps.set_parameters(std::vector{1.0}, std::vector{1.0, 0.0});
-    std::vector<double> state(3, 0.1), matrix(6, 1.0), after(6), few(5);
-    for (ModeJets* all : {&jets, &without})
-        all->set_parameters(std::vector{1.0});
-    Jet &jet = jets.computed(0, state), &next = jets.next(0);
-    EXPECT_THROW(steps.carry(next, 0.1, after), OrderError);
-    EXPECT_THROW(steps.begin(jet, 1, state, matrix), InputError);
-    EXPECT_THROW(steps.begin(jet, 0, few, matrix), InputError);
-    EXPECT_THROW(steps.begin(jet, 0, state, few), InputError);
-    EXPECT_THROW(steps.begin(without.computed(0, state), 0, state, matrix), InputError);
-    EXPECT_THROW(steps.begin(next, 0, state, matrix), OrderError); // the jet has not been computed
-    steps.begin(jet, 0, state, matrix);
-    EXPECT_THROW(steps.carry(next, 0.1, few), InputError);
-    EXPECT_EQ(steps.carry(next, 0.01, after), 0.01);
 }
 
 } // namespace

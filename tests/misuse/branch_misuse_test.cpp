@@ -22,6 +22,14 @@ struct Circle {
     DenseProblem problem{2, residual};
     Continuation continuation{borrowed(problem)};
     const std::vector<double> point = {1, 0};
+    Circle& evaluated() {
+        problem.evaluate(point);
+        return *this;
+    }
+    void solve(std::size_t row, std::size_t step) {
+        Values result(step);
+        keep(problem.solve(Values(row, 1.0), 0, false, result, nullptr));
+    }
     Continuation& started() {
         EXPECT_TRUE(continuation.start(point, 1, 1));
         return continuation;
@@ -36,46 +44,26 @@ void problems(WrongUses& wrong) {
     for (const std::size_t length : {1, 3})
         wrong("dense_problem_scales_" + std::to_string(length),
               [length] { keep(DenseProblem(2, residual, {}, std::vector<double>(length, 1.0))); });
-    for (const auto& [kind, value] : not_positive())
-        wrong("dense_problem_scale_" + kind, [v = value] { keep(DenseProblem(2, residual, {}, {1, v})); });
-    for (const auto& [kind, length] : wrong_lengths(2)) {
-        wrong("dense_evaluate_" + kind, [n = length] { keep(Circle().problem.evaluate(std::vector<double>(n, 1.0))); });
-        const auto solve = [&, what = kind](const std::string& name, std::size_t row, std::size_t step) {
-            wrong("dense_solve_" + name + "_" + what, [row, step] {
-                Circle circle;
-                circle.problem.evaluate(circle.point);
-                std::vector<double> result(step);
-                keep(circle.problem.solve(std::vector<double>(row, 1.0), 0, false, result, nullptr));
-            });
-        };
-        solve("row", length, 2);
-        solve("step", 2, length);
-    }
-    wrong("dense_solve_before_evaluate", [] {
-        std::vector<double> step(2);
-        keep(Circle().problem.solve(std::vector<double>(2, 1.0), 0, false, step, nullptr));
-    });
+    wrong("dense_problem_scale", not_positive(), [](double v) { keep(DenseProblem(2, residual, {}, {1, v})); });
+    wrong("dense_evaluate", wrong_lengths(2),
+          [](std::size_t n) { keep(Circle().problem.evaluate(std::vector<double>(n, 1.0))); });
+    wrong("dense_solve_row", wrong_lengths(2), [](Circle& c, std::size_t n) { c.evaluated().solve(n, 2); });
+    wrong("dense_solve_step", wrong_lengths(2), [](Circle& c, std::size_t n) { c.evaluated().solve(2, n); });
+    wrong("dense_solve_before_evaluate", [](Circle& c) { c.solve(2, 2); });
 }
 
 void continuations(WrongUses& wrong) {
-    const auto option = [&](const std::string& name, const std::function<void(ContinuationOptions&)>& set) {
-        wrong("continuation_options_" + name, [set] {
-            ContinuationOptions options;
-            set(options);
-            options.validate();
-        });
-        wrong("continuation_with_" + name, [set] {
-            ContinuationOptions options;
-            set(options);
-            Circle circle;
-            keep(Continuation(borrowed(circle.problem), options));
-        });
-        wrong("branch_settings_continuation_" + name, [set] {
-            BranchSettings settings = by_amplitude();
-            set(settings.continuation);
-            settings.validate(oscillator());
-        });
-    };
+    using Options = ContinuationOptions;
+    const auto option = wrong.spoiled<Options>(
+        [] { return Options(); },
+        {{"continuation_options", &Options::validate},
+         {"continuation_with",
+          [](Options& options) { Continuation(std::make_shared<DenseProblem>(2, residual), options); }},
+         {"branch_settings_continuation", [](Options& options) {
+              BranchSettings settings = by_amplitude();
+              settings.continuation = options;
+              settings.validate(oscillator());
+          }}});
     const std::vector<std::pair<std::string, double ContinuationOptions::*>> members = {
         {"first_step", &ContinuationOptions::first_step},
         {"smallest_step", &ContinuationOptions::smallest_step},
@@ -88,52 +76,43 @@ void continuations(WrongUses& wrong) {
     option("iterations_0", [](ContinuationOptions& o) { o.iterations = 0; });
     option("smallest_step_above_largest", [](ContinuationOptions& o) { o.smallest_step = 1; });
 
-    const auto of = [&](const std::string& name, const std::function<void(Circle&)>& use) {
-        wrong("continuation_" + name, [use] {
-            Circle circle;
-            use(circle);
-        });
-    };
-    for (const auto& [kind, length] : wrong_lengths(2)) {
-        of("start_u_" + kind, [n = length](Circle& c) { keep(c.continuation.start(Values(n, 1.0), 0, 1)); });
-        of("along_u_" + kind, [n = length](Circle& c) {
-            keep(c.continuation.start_along(Values(n, 1.0), Values{0, 1}, 0.1));
-        });
-        of("along_direction_" + kind,
-           [n = length](Circle& c) { keep(c.continuation.start_along(c.point, Values(n, 1.0), 0.1)); });
-        of("at_u_" + kind, [n = length](Circle& c) { keep(c.continuation.start_at(Values(n, 1.0), Values{0, 1})); });
-        of("at_row_" + kind, [n = length](Circle& c) { keep(c.continuation.start_at(c.point, Values(n, 1.0))); });
-    }
-    for (const auto& [kind, index] : wrong_indices(2))
-        of("start_unknown_" + kind, [i = index](Circle& c) { keep(c.continuation.start(c.point, i, 1)); });
+    const auto of = [&](const std::string& name, const auto&... use) { wrong("continuation_" + name, use...); };
+    of("start_u", wrong_lengths(2), [](Circle& c, std::size_t n) { keep(c.continuation.start(Values(n, 1.0), 0, 1)); });
+    of("along_u", wrong_lengths(2), [](Circle& c, std::size_t n) {
+        keep(c.continuation.start_along(Values(n, 1.0), Values{0, 1}, 0.1));
+    });
+    of("along_direction", wrong_lengths(2),
+       [](Circle& c, std::size_t n) { keep(c.continuation.start_along(c.point, Values(n, 1.0), 0.1)); });
+    of("at_u", wrong_lengths(2), [](Circle& c, std::size_t n) {
+        keep(c.continuation.start_at(Values(n, 1.0), Values{0, 1}));
+    });
+    of("at_row", wrong_lengths(2),
+       [](Circle& c, std::size_t n) { keep(c.continuation.start_at(c.point, Values(n, 1.0))); });
+    of("start_unknown", wrong_indices(2), [](Circle& c, std::size_t i) { keep(c.continuation.start(c.point, i, 1)); });
     of("start_direction_0", [](Circle& c) { keep(c.continuation.start(c.point, 1, 0)); });
-    for (const auto& [kind, value] : not_finite()) {
-        of("start_" + kind, [v = value](Circle& c) { keep(c.continuation.start(Values{1, v}, 1, 1)); });
-        of("along_" + kind, [v = value](Circle& c) {
-            keep(c.continuation.start_along(Values{1, v}, Values{0, 1}, 0.1));
-        });
-        of("along_direction_" + kind, [v = value](Circle& c) {
-            keep(c.continuation.start_along(c.point, Values{0, v}, 0.1));
-        });
-        of("along_distance_" + kind, [v = value](Circle& c) {
-            keep(c.continuation.start_along(c.point, Values{0, 1}, v));
-        });
-        of("at_" + kind, [v = value](Circle& c) { keep(c.continuation.start_at(Values{1, v}, Values{0, 1})); });
-        of("at_row_" + kind, [v = value](Circle& c) { keep(c.continuation.start_at(c.point, Values{0, v})); });
-        of("between_" + kind, [v = value](Circle& c) {
-            c.started().step();
-            ContinuationPoint point;
-            keep(c.continuation.between(v, point));
-        });
-    }
+    of("start", not_finite(), [](Circle& c, double v) { keep(c.continuation.start(Values{1, v}, 1, 1)); });
+    of("along", not_finite(), [](Circle& c, double v) {
+        keep(c.continuation.start_along(Values{1, v}, Values{0, 1}, 0.1));
+    });
+    of("along_direction", not_finite(), [](Circle& c, double v) {
+        keep(c.continuation.start_along(c.point, Values{0, v}, 0.1));
+    });
+    of("along_distance", not_finite(), [](Circle& c, double v) {
+        keep(c.continuation.start_along(c.point, Values{0, 1}, v));
+    });
+    of("at", not_finite(), [](Circle& c, double v) { keep(c.continuation.start_at(Values{1, v}, Values{0, 1})); });
+    of("at_row", not_finite(), [](Circle& c, double v) { keep(c.continuation.start_at(c.point, Values{0, v})); });
+    of("between", not_finite(), [](Circle& c, double v) {
+        c.started().step();
+        ContinuationPoint point;
+        keep(c.continuation.between(v, point));
+    });
     of("along_direction_zero", [](Circle& c) { keep(c.continuation.start_along(c.point, Values{0, 0}, 0.1)); });
     of("along_distance_negative", [](Circle& c) { keep(c.continuation.start_along(c.point, Values{0, 1}, -1)); });
     of("at_row_zero", [](Circle& c) { keep(c.continuation.start_at(c.point, Values{0, 0})); });
     of("step_before_start", [](Circle& c) { keep(c.continuation.step()); });
-    for (const auto& [kind, value] : not_positive()) {
-        of("next_step_" + kind, [v = value](Circle& c) { c.started().set_next_step(v); });
-        of("next_step_before_start_" + kind, [v = value](Circle& c) { c.continuation.set_next_step(v); });
-    }
+    of("next_step", not_positive(), [](Circle& c, double v) { c.started().set_next_step(v); });
+    of("next_step_before_start", not_positive(), [](Circle& c, double v) { c.continuation.set_next_step(v); });
     for (const double fraction : {-1.0, 2.0})
         of("between_" + std::to_string(fraction), [fraction](Circle& c) {
             c.started().step();
@@ -152,23 +131,16 @@ void continuations(WrongUses& wrong) {
 }
 
 void settings(WrongUses& wrong) {
-    const auto setting = [&](const std::string& name, const std::function<void(BranchSettings&)>& set) {
-        const auto made = [set] {
-            BranchSettings settings = by_amplitude();
-            set(settings);
-            return settings;
-        };
-        wrong("branch_settings_" + name, [made] { made().validate(oscillator()); });
-        wrong("orbit_branch_" + name, [made] { keep(OrbitBranch(System(calm_oscillator()), calm_orbit(), made())); });
-        wrong("branches_at_" + name, [made] { keep(branches_at(System(calm_oscillator()), grazing_point(), made())); });
-    };
-    for (const auto& [kind, index] : wrong_indices(5)) {
-        setting("parameter_" + kind, [i = index](BranchSettings& s) { s.parameter = ParameterId(i); });
-        setting("free_" + kind, [i = index](BranchSettings& s) {
-            s.monitors = {{.name = "period", .fixed = true}};
-            s.free = {ParameterId(i)};
-        });
-    }
+    const auto setting = wrong.spoiled<BranchSettings>(
+        by_amplitude,
+        {{"branch_settings", [](BranchSettings& s) { s.validate(oscillator()); }},
+         {"orbit_branch", [](BranchSettings& s) { keep(OrbitBranch(System(calm_oscillator()), calm_orbit(), s)); }},
+         {"branches_at", [](BranchSettings& s) { keep(branches_at(System(calm_oscillator()), grazing_point(), s)); }}});
+    setting("parameter", wrong_indices(5), [](BranchSettings& s, std::size_t i) { s.parameter = ParameterId(i); });
+    setting("free", wrong_indices(5), [](BranchSettings& s, std::size_t i) {
+        s.monitors = {{.name = "period", .fixed = true}};
+        s.free = {ParameterId(i)};
+    });
     for (const int direction : {0, 2, -7})
         setting("direction_" + std::to_string(direction), [direction](BranchSettings& s) { s.direction = direction; });
     setting("bounds_reversed", [](BranchSettings& s) {
@@ -206,14 +178,12 @@ void settings(WrongUses& wrong) {
     monitor("held_nan", {.name = "m", .held = not_a_number});
     monitor("crossing_nan", {.name = "m", .crossings = {not_a_number}});
     monitor("bounds_reversed", {.name = "m", .least = 1, .greatest = 0});
-    for (const auto& [kind, tolerance] : not_positive())
-        wrong("monitors_tolerance_" + kind, [t = tolerance] {
-            keep(OrbitMonitors(System(calm_oscillator()), calm_orbit().signature, {{.name = "period"}}, t));
-        });
-    for (const auto& [kind, index] : wrong_indices(1))
-        wrong("monitors_segment_" + kind, [i = index] {
-            keep(OrbitMonitors(System(calm_oscillator()), calm_orbit().signature, {{.name = "period"}}).segment(i));
-        });
+    wrong("monitors_tolerance", not_positive(), [](double t) {
+        keep(OrbitMonitors(System(calm_oscillator()), calm_orbit().signature, {{.name = "period"}}, t));
+    });
+    wrong("monitors_segment", wrong_indices(1), [](std::size_t i) {
+        keep(OrbitMonitors(System(calm_oscillator()), calm_orbit().signature, {{.name = "period"}}).segment(i));
+    });
     const auto signature = [&](const std::string& name, const Signature& given) {
         wrong("monitors_set_signature_" + name, [given] {
             OrbitMonitors monitors(System(calm_oscillator()), calm_orbit().signature, {{.name = "period"}});
@@ -229,12 +199,11 @@ void settings(WrongUses& wrong) {
         const OrbitMonitors moved = std::move(monitors);
         keep(monitors(calm_orbit()));
     });
-    for (const auto& [kind, length] : wrong_lengths(2))
-        wrong("measure_multipliers_" + kind, [n = length] {
-            std::vector<double> values(n);
-            measure_multipliers({{.name = "a", .kind = Kind::multiplier}, {.name = "b", .kind = Kind::multiplier}},
-                                {1.0, 0.5}, values);
-        });
+    wrong("measure_multipliers", wrong_lengths(2), [](std::size_t n) {
+        std::vector<double> values(n);
+        measure_multipliers({{.name = "a", .kind = Kind::multiplier}, {.name = "b", .kind = Kind::multiplier}},
+                            {1.0, 0.5}, values);
+    });
     wrong("measure_multipliers_place_0", [] {
         std::vector<double> values(1);
         measure_multipliers({{.name = "a", .kind = Kind::multiplier, .place = 0}}, {1.0}, values);
@@ -242,12 +211,9 @@ void settings(WrongUses& wrong) {
 }
 
 void branches(WrongUses& wrong) {
-    const auto branch = [&](const std::string& name, const std::function<void(OrbitBranch&)>& use) {
-        wrong("orbit_branch_" + name, [use] {
-            OrbitBranch one(System(calm_oscillator()), calm_orbit(), by_amplitude());
-            use(one);
-        });
-    };
+    const auto branch =
+        wrong.spoiled<OrbitBranch>([] { return OrbitBranch(System(calm_oscillator()), calm_orbit(), by_amplitude()); },
+                                   {{"orbit_branch", [](OrbitBranch&) {}}});
     branch("step_before_start", [](OrbitBranch& b) { keep(b.step()); });
     branch("point_before_start", [](OrbitBranch& b) { keep(b.point()); });
     const OrbitDirection along{{{0, 0, 0}}, {0}, {1}};
@@ -268,18 +234,16 @@ void branches(WrongUses& wrong) {
     }
     branch("along_no_parameter", [](OrbitBranch& b) { keep(b.start_along({{{0, 0, 0}}, {0}, {}}, 0.01)); });
     branch("along_two_parameters", [](OrbitBranch& b) { keep(b.start_along({{{0, 0, 0}}, {0}, {1, 1}}, 0.01)); });
-    for (const auto& [kind, value] : not_finite()) {
-        branch("along_start_" + kind, [v = value](OrbitBranch& b) {
-            keep(b.start_along({{{0, v, 0}}, {0}, {1}}, 0.01));
-        });
-        branch("along_duration_" + kind, [v = value](OrbitBranch& b) {
-            keep(b.start_along({{{0, 0, 0}}, {v}, {1}}, 0.01));
-        });
-        branch("along_parameter_" + kind, [v = value](OrbitBranch& b) {
-            keep(b.start_along({{{0, 0, 0}}, {0}, {v}}, 0.01));
-        });
-        branch("along_distance_" + kind, [along, v = value](OrbitBranch& b) { keep(b.start_along(along, v)); });
-    }
+    branch("along_start", not_finite(), [](OrbitBranch& b, double v) {
+        keep(b.start_along({{{0, v, 0}}, {0}, {1}}, 0.01));
+    });
+    branch("along_duration", not_finite(), [](OrbitBranch& b, double v) {
+        keep(b.start_along({{{0, 0, 0}}, {v}, {1}}, 0.01));
+    });
+    branch("along_parameter", not_finite(), [](OrbitBranch& b, double v) {
+        keep(b.start_along({{{0, 0, 0}}, {0}, {v}}, 0.01));
+    });
+    branch("along_distance", not_finite(), [along](OrbitBranch& b, double v) { keep(b.start_along(along, v)); });
     branch("along_nothing", [](OrbitBranch& b) { keep(b.start_along({{{0, 0, 0}}, {0}, {0}}, 0.01)); });
     branch("along_distance_negative", [along](OrbitBranch& b) { keep(b.start_along(along, -1)); });
     const auto moved = [&](const std::string& name, const std::function<void(OrbitBranch&)>& use) {
@@ -308,19 +272,13 @@ void branches(WrongUses& wrong) {
             keep(branches_at(System(calm_oscillator()), point, by_amplitude()));
         });
     }
-    const auto grazing = [&](const std::string& name, const std::function<void(SpecialPoint&)>& spoil) {
-        wrong("branches_at_grazing_" + name, [spoil] {
-            SpecialPoint point = grazing_point();
-            spoil(point);
-            keep(branches_at(System(calm_oscillator()), point, by_amplitude()));
-        });
-    };
-    for (const auto& [kind, index] : wrong_indices(1))
-        grazing("segment_" + kind, [i = index](SpecialPoint& p) { p.segment = i; });
-    for (const auto& [kind, index] : wrong_indices(2))
-        grazing("event_" + kind, [i = index](SpecialPoint& p) { p.event = i; });
-    for (const auto& [kind, value] : not_finite())
-        grazing("time_" + kind, [v = value](SpecialPoint& p) { p.time = v; });
+    const auto grazing = wrong.spoiled<SpecialPoint>(
+        grazing_point, {{"branches_at_grazing", [](SpecialPoint& point) {
+                             keep(branches_at(System(calm_oscillator()), point, by_amplitude()));
+                         }}});
+    grazing("segment", wrong_indices(1), [](SpecialPoint& p, std::size_t i) { p.segment = i; });
+    grazing("event", wrong_indices(2), [](SpecialPoint& p, std::size_t i) { p.event = i; });
+    grazing("time", not_finite(), [](SpecialPoint& p, double v) { p.time = v; });
     grazing("time_negative", [](SpecialPoint& p) { p.time = -1; });
     grazing("time_after_the_end", [](SpecialPoint& p) { p.time = 1e6; });
     grazing("signature_empty", [](SpecialPoint& p) { p.solution.orbit.signature.clear(); });
@@ -331,17 +289,8 @@ void branches(WrongUses& wrong) {
     wrong("name_of_no_branch_outcome", [] { keep(std::string(name_of(static_cast<BranchOutcome>(99)))); });
 }
 
-std::vector<WrongUse> wrong_branch_uses() {
-    WrongUses wrong;
-    problems(wrong);
-    continuations(wrong);
-    settings(wrong);
-    branches(wrong);
-    return wrong.list();
-}
-
 TEST(WrongBranchUse, IsRefused) {
-    each_of(wrong_branch_uses(), expect_refusal);
+    expect_refusals({problems, continuations, settings, branches});
 }
 
 } // namespace

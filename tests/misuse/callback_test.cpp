@@ -20,7 +20,6 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
-#include <stdexcept>
 #include <thread>
 
 namespace graze {

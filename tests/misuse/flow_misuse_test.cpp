@@ -31,14 +31,8 @@ struct Pendulum {
 };
 
 void tapes(WrongUses& wrong) {
-    const auto compile = [&](const std::string& name, const std::function<void(Pendulum&)>& spoil) {
-        wrong("compile_tape_" + name, [spoil] {
-            Pendulum p;
-            spoil(p);
-            keep(p.tape());
-        });
-    };
-    const Expression none;
+    const auto compile =
+        wrong.spoiled<Pendulum>([] { return Pendulum(); }, {{"compile_tape", [](Pendulum& p) { keep(p.tape()); }}});
     compile("state_nothing", [](Pendulum& p) { p.states[0] = {}; });
     compile("parameter_nothing", [](Pendulum& p) { p.parameters[0] = {}; });
     compile("rate_nothing", [](Pendulum& p) { p.rates[0] = {}; });
@@ -70,14 +64,11 @@ void tapes(WrongUses& wrong) {
     wrong("lanes_of_no_kind", [] { keep(lanes_of(static_cast<LaneKind>(9), InstructionSet::baseline)); });
     wrong("lanes_of_no_set", [] { keep(lanes_of(LaneKind::ensemble, static_cast<InstructionSet>(9))); });
     wrong("name_of_no_set", [] { keep(std::string(name_of(static_cast<InstructionSet>(9)))); });
-    const auto by_hand = [&](const std::string& name, const std::function<void(Tape&)>& spoil) {
-        wrong("make_jet_tape_" + name, [spoil] {
-            Tape tape = Pendulum().tape();
-            spoil(tape);
-            const std::unique_ptr<Jet> jet = make_jet(tape, 8, LaneKind::single);
-            jet->compute(std::vector<double>(tape.states, 0.5));
-        });
-    };
+    const auto by_hand =
+        wrong.spoiled<Tape>([] { return Pendulum().tape(); },
+                            {{"make_jet_tape", [](Tape& tape) {
+                                  make_jet(tape, 8, LaneKind::single)->compute(std::vector<double>(tape.states, 0.5));
+                              }}});
     by_hand("register_that_is_not_there", [](Tape& t) { t.code.at(0).result = 1'000'000; });
     by_hand("output_that_is_not_there", [](Tape& t) { t.outputs.at(0).index = 1'000'000; });
     by_hand("rate_that_is_not_there", [](Tape& t) { t.rates.at(0).index = 1'000'000; });
@@ -185,16 +176,14 @@ void wrong_jets(WrongUses& wrong) {
             Pendulum().jet(kind)->find_disagreement(*Pendulum().jet(kind, 5), {1, 1, 1}, Numbers(width),
                                                     Numbers(2 * width), Numbers(2 * width), result);
         });
-        wrong(of + "find_disagreement_of_another_tape", [kind, width] {
-            Pendulum other;
+        wrong(of + "find_disagreement_of_another_tape", [kind, width](Pendulum& other) {
             other.outputs.pop_back();
             Numbers result(width);
             Pendulum().jet(kind)->find_disagreement(*other.jet(kind), {1, 1, 1}, Numbers(width), Numbers(2 * width),
                                                     Numbers(2 * width), result);
         });
     }
-    for (const auto& [how, index] : wrong_indices(0))
-        wrong("jet_deferred_" + how, [index = index] { keep(Pendulum().jet()->deferred(index)); });
+    wrong("jet_deferred", wrong_indices(0), [](std::size_t index) { keep(Pendulum().jet()->deferred(index)); });
     wrong("jet_follow_before_it_is_computed", [] {
         constexpr std::uint32_t group = 0;
         make_jet(Pendulum().tape(), 8, LaneKind::single)->compute_deferred({&group, 1});
@@ -217,28 +206,45 @@ void tangents(WrongUses& wrong) {
         }
         void begin() { steps.begin(jets.computed(0, state), 0, state, matrix); }
     };
-    const auto use = [&](const std::string& name, const std::function<void(Step&)>& spoil) {
-        wrong("tangent_steps_" + name, [spoil] {
-            Step step;
-            spoil(step);
-        });
-    };
-    use("carry_before_a_step", [](Step& s) { s.steps.carry(s.jets.next(0), 0.1, s.after); });
-    use("begin_without_tangents", [](Step& s) {
+    wrong("tangent_steps_carry_before_a_step", [](Step& s) { s.steps.carry(s.jets.next(0), 0.1, s.after); });
+    wrong("tangent_steps_begin_without_tangents", [](Step& s) {
         ModeJets plain(s.system, 8, LaneKind::single);
         s.steps.begin(plain.computed(0, s.state), 0, s.state, s.matrix);
     });
-    use("begin_where_nothing_is_computed", [](Step& s) { s.steps.begin(s.jets(0), 0, s.state, s.matrix); });
-    for (const auto& [how, mode] : wrong_indices(1))
-        use("begin_mode_" + how,
-            [mode = mode](Step& s) { s.steps.begin(s.jets.computed(0, s.state), mode, s.state, s.matrix); });
-    for (const auto& [how, length] : wrong_lengths(2))
-        use("carry_" + how, [length = length](Step& s) {
-            s.begin();
-            std::vector<double> after(length);
-            s.steps.carry(s.jets.next(0), 0.1, after);
-        });
+    wrong("tangent_steps_begin_where_nothing_is_computed",
+          [](Step& s) { s.steps.begin(s.jets(0), 0, s.state, s.matrix); });
+    wrong("tangent_steps_begin_state", wrong_lengths(3), [](Step& s, std::size_t length) {
+        s.steps.begin(s.jets.computed(0, s.state), 0, std::vector<double>(length), s.matrix);
+    });
+    wrong("tangent_steps_begin_matrix", wrong_lengths(6), [](Step& s, std::size_t length) {
+        s.steps.begin(s.jets.computed(0, s.state), 0, s.state, std::vector<double>(length));
+    });
+    wrong("tangent_steps_parameters", wrong_lengths(5), [](Step& s, std::size_t length) {
+        s.steps.set_parameters(std::vector<double>(length), std::vector<double>(10));
+    });
+    wrong("tangent_steps_directions", wrong_lengths(10), [](Step& s, std::size_t length) {
+        s.steps.set_parameters(std::vector<double>(5), std::vector<double>(length));
+    });
+    wrong("tangent_steps_begin_mode", wrong_indices(1),
+          [](Step& s, std::size_t mode) { s.steps.begin(s.jets.computed(0, s.state), mode, s.state, s.matrix); });
+    wrong("tangent_steps_carry", wrong_lengths(2), [](Step& s, std::size_t length) {
+        s.begin();
+        std::vector<double> after(length);
+        s.steps.carry(s.jets.next(0), 0.1, after);
+    });
 }
+
+/// A check of steps of the oscillator.
+struct OscillatorCheck {
+    StepCheck check{System(oscillator()), 10, 1e-10};
+    std::vector<double> coefficients = std::vector<double>(33, 0.1);
+    Series series() const { return {coefficients.data(), 1}; }
+    /// Asks for the longest step in a mode with so many series.
+    void longest(std::size_t mode, std::size_t count, std::span<const double> floors = {}) {
+        check.set_parameters(oscillator().parameter_values());
+        keep(check.longest(mode, std::vector<Series>(count, series()), 0.1, false, floors));
+    }
+};
 
 void steps(WrongUses& wrong) {
     for (const double tolerance : {0.0, -1.0, 1.0, not_a_number, infinity}) {
@@ -264,37 +270,17 @@ void steps(WrongUses& wrong) {
         RootFinder(2).crossings(cubic, 1, RootStart::as_is, roots);
     });
     wrong("minimum_degree", [cubic] { keep(RootFinder(2).minimum(cubic, 1)); });
-    for (const auto& [how, length] : wrong_lengths(5))
-        wrong("step_check_parameters_" + how, [length = length] {
-            StepCheck check(System(oscillator()), 10, 1e-10);
-            check.set_parameters(std::vector<double>(length));
-        });
-    static const std::vector<double> coefficients(33, 0.1);
-    for (const auto& [how, mode] : wrong_indices(2))
-        wrong("step_check_mode_" + how, [mode = mode] {
-            StepCheck check(System(oscillator()), 10, 1e-10);
-            check.set_parameters(oscillator().parameter_values());
-            keep(check.longest(mode, std::vector<Series>(4, Series{coefficients.data(), 1}), 0.1, false));
-        });
-    for (const auto& [how, length] : wrong_lengths(4)) {
-        wrong("step_check_series_" + how, [length = length] {
-            StepCheck check(System(oscillator()), 10, 1e-10);
-            check.set_parameters(oscillator().parameter_values());
-            keep(check.longest(0, std::vector<Series>(length, Series{coefficients.data(), 1}), 0.1, false));
-        });
-        if (length > 0)
-            wrong("step_check_floors_" + how, [length = length] {
-                StepCheck check(System(oscillator()), 10, 1e-10);
-                check.set_parameters(oscillator().parameter_values());
-                keep(check.longest(0, std::vector<Series>(4, Series{coefficients.data(), 1}), 0.1, false,
-                                   std::vector<double>(length)));
-            });
-    }
-    for (const auto& [how, length] : wrong_lengths(2))
-        wrong("step_size_floors_" + how, [length = length] {
-            const std::vector<Series> states(2, Series{coefficients.data(), 1});
-            keep(StepSize(10, 1e-10).with_floors(states, 0.1, std::vector<double>(length)));
-        });
+    wrong("step_check_parameters", wrong_lengths(5), [](std::size_t length) {
+        StepCheck(System(oscillator()), 10, 1e-10).set_parameters(std::vector<double>(length));
+    });
+    wrong("step_check_mode", wrong_indices(2), [](OscillatorCheck& c, std::size_t mode) { c.longest(mode, 4); });
+    wrong("step_check_series", wrong_lengths(4), [](OscillatorCheck& c, std::size_t length) { c.longest(0, length); });
+    for (const std::size_t length : {5, 3})
+        wrong(length > 4 ? "step_check_floors_too_long" : "step_check_floors_too_short",
+              [length](OscillatorCheck& c) { c.longest(0, 4, std::vector<double>(length)); });
+    wrong("step_size_floors", wrong_lengths(2), [](OscillatorCheck& c, std::size_t length) {
+        keep(StepSize(10, 1e-10).with_floors(std::vector<Series>(2, c.series()), 0.1, std::vector<double>(length)));
+    });
 }
 
 void systems(WrongUses& wrong) {
@@ -344,30 +330,24 @@ void mode_flows(WrongUses& wrong) {
     for (const int order : {3, -1, highest_order + 1})
         wrong("mode_flow_order_" + std::to_string(order),
               [order] { keep(ModeFlow(System(oscillator()), 1e-10, order)); });
-    for (const auto& [how, index] : wrong_indices(parameters))
-        wrong("mode_flow_free_" + how,
-              [index = index] { keep(ModeFlow(System(oscillator()), 1e-10, 0, {ParameterId(index)})); });
-    for (const auto& [how, index] : wrong_indices(n))
-        wrong("mode_flow_start_" + how,
-              [index = index] { keep(ModeFlow(System(oscillator()), 1e-10, 0, {}, std::vector{index})); });
-    for (const auto& [how, index] : wrong_indices(oscillator().modes.size()))
-        wrong("mode_flow_run_" + how, [made, n, index = index] {
-            std::vector<double> state(n, 0.1);
-            keep(made().run(index, state, 0.1));
-        });
-    for (const auto& [how, length] : wrong_lengths(parameters))
-        wrong("mode_flow_parameters_" + how,
-              [made, length = length] { made().set_parameters(std::vector<double>(length)); });
-    for (const auto& [how, length] : wrong_lengths(n))
-        wrong("mode_flow_state_" + how, [made, length = length] {
-            std::vector<double> state(length, 0.1);
-            keep(made().run(0, state, 0.1));
-        });
-    for (const auto& [how, length] : wrong_lengths(n * (n + 1)))
-        wrong("mode_flow_derivatives_" + how, [made, n, length = length] {
-            std::vector<double> state(n, 0.1), derivatives(length);
-            keep(made().run(0, state, 0.1, derivatives));
-        });
+    wrong("mode_flow_free", wrong_indices(parameters),
+          [](std::size_t index) { keep(ModeFlow(System(oscillator()), 1e-10, 0, {ParameterId(index)})); });
+    wrong("mode_flow_start", wrong_indices(n),
+          [](std::size_t index) { keep(ModeFlow(System(oscillator()), 1e-10, 0, {}, std::vector{index})); });
+    wrong("mode_flow_run", wrong_indices(oscillator().modes.size()), [made, n](std::size_t index) {
+        std::vector<double> state(n, 0.1);
+        keep(made().run(index, state, 0.1));
+    });
+    wrong("mode_flow_parameters", wrong_lengths(parameters),
+          [made](std::size_t length) { made().set_parameters(std::vector<double>(length)); });
+    wrong("mode_flow_state", wrong_lengths(n), [made](std::size_t length) {
+        std::vector<double> state(length, 0.1);
+        keep(made().run(0, state, 0.1));
+    });
+    wrong("mode_flow_derivatives", wrong_lengths(n * (n + 1)), [made, n](std::size_t length) {
+        std::vector<double> state(n, 0.1), derivatives(length);
+        keep(made().run(0, state, 0.1, derivatives));
+    });
     wrong("mode_flow_before_parameters", [n] {
         ModeFlow flow(System(oscillator()), 1e-10);
         std::vector<double> state(n, 0.1);
@@ -397,13 +377,8 @@ void second_order_flows(WrongUses& wrong) {
     for (const int order : {3, -1, highest_order + 1})
         wrong("second_order_order_" + std::to_string(order),
               [order] { keep(SecondOrderFlow(SecondOrderRun().system, 1e-10, order)); });
-    const auto run = [&](const std::string& name, const std::function<void(SecondOrderRun&)>& spoil) {
-        wrong("second_order_" + name, [spoil] {
-            SecondOrderRun one;
-            spoil(one);
-            one.run();
-        });
-    };
+    const auto run =
+        wrong.spoiled<SecondOrderRun>([] { return SecondOrderRun(); }, {{"second_order", &SecondOrderRun::run}});
     using Numbers = std::vector<double> SecondOrderRun::*;
     for (const auto& [name, numbers] : {std::pair<std::string, Numbers>("parameters", &SecondOrderRun::parameters),
                                         {"state", &SecondOrderRun::state},
@@ -413,18 +388,14 @@ void second_order_flows(WrongUses& wrong) {
         for (const auto& [how, length] : wrong_lengths((right.*numbers).size()))
             run(name + "_" + how,
                 [numbers = numbers, length = length](SecondOrderRun& r) { (r.*numbers).resize(length); });
-    for (const auto& [how, index] : wrong_indices(oscillator().modes.size()))
-        run("run_" + how, [index = index](SecondOrderRun& r) { r.mode = index; });
+    run("run", wrong_indices(oscillator().modes.size()), [](SecondOrderRun& r, std::size_t index) { r.mode = index; });
     for (const double component : {not_a_number, infinity})
         run("vector_" + std::to_string(component), [component](SecondOrderRun& r) { r.vector[1] = component; });
-    wrong("second_order_before_parameters", [] {
-        SecondOrderRun r;
-        keep(r.flow.run(0, r.state, 0.1, r.vector, r.derivatives, r.second));
-    });
+    wrong("second_order_before_parameters",
+          [](SecondOrderRun& r) { keep(r.flow.run(0, r.state, 0.1, r.vector, r.derivatives, r.second)); });
 
-    for (const auto& [how, index] : wrong_indices(oscillator().parameter_values().size()))
-        wrong("variational_free_" + how,
-              [index = index] { keep(VariationalSystem(System(oscillator()), {ParameterId(index)})); });
+    wrong("variational_free", wrong_indices(oscillator().parameter_values().size()),
+          [](std::size_t index) { keep(VariationalSystem(System(oscillator()), {ParameterId(index)})); });
     wrong("variational_free_twice", [] {
         keep(VariationalSystem(System(oscillator()), {ParameterId(1), ParameterId(0), ParameterId(1)}));
     });
@@ -455,20 +426,8 @@ void second_order_flows(WrongUses& wrong) {
     });
 }
 
-std::vector<WrongUse> wrong_flow_uses() {
-    WrongUses wrong;
-    tapes(wrong);
-    wrong_jets(wrong);
-    tangents(wrong);
-    steps(wrong);
-    systems(wrong);
-    mode_flows(wrong);
-    second_order_flows(wrong);
-    return wrong.list();
-}
-
 TEST(WrongFlowUse, IsRefused) {
-    each_of(wrong_flow_uses(), expect_refusal);
+    expect_refusals({tapes, wrong_jets, tangents, steps, systems, mode_flows, second_order_flows});
 }
 
 } // namespace

@@ -31,31 +31,16 @@ LayoutLibrary library() {
 }
 
 void drawings(WrongUses& wrong) {
-    const auto stream = [&](const std::string& name, const std::function<void(LayoutLibrary&)>& change) {
-        wrong("gds_" + name, [change] {
-            LayoutLibrary changed = library();
-            change(changed);
-            keep(gds_stream(changed));
-        });
-    };
-    const auto both = [&](const std::string& name, const std::function<void(LayoutLibrary&)>& change) {
-        stream(name, change);
-        wrong("flattened_" + name, [change] {
-            LayoutLibrary changed = library();
-            change(changed);
-            keep(flattened(changed, "outer"));
-        });
-        wrong("areas_" + name, [change] {
-            LayoutLibrary changed = library();
-            change(changed);
-            keep(areas_of(changed, "outer"));
-        });
-    };
-    both("cell_missing", [](LayoutLibrary& l) { l.cells[1].references[0].cell = "nothing"; });
-    both("cell_after", [](LayoutLibrary& l) { std::swap(l.cells[0], l.cells[1]); });
-    both("cell_in_itself", [](LayoutLibrary& l) { l.cells[1].references[0].cell = "outer"; });
-    both("cells_in_a_circle", [](LayoutLibrary& l) { l.cells[0].references.push_back({"outer", {}, false, 0}); });
-    both("cell_twice", [](LayoutLibrary& l) { l.cells[0].name = "outer"; });
+    const auto stream = wrong.spoiled<LayoutLibrary>(library, {{"gds", [](LayoutLibrary& l) { keep(gds_stream(l)); }}});
+    const auto all =
+        wrong.spoiled<LayoutLibrary>(library, {{"gds", [](LayoutLibrary& l) { keep(gds_stream(l)); }},
+                                               {"flattened", [](LayoutLibrary& l) { keep(flattened(l, "outer")); }},
+                                               {"areas", [](LayoutLibrary& l) { keep(areas_of(l, "outer")); }}});
+    all("cell_missing", [](LayoutLibrary& l) { l.cells[1].references[0].cell = "nothing"; });
+    all("cell_after", [](LayoutLibrary& l) { std::swap(l.cells[0], l.cells[1]); });
+    all("cell_in_itself", [](LayoutLibrary& l) { l.cells[1].references[0].cell = "outer"; });
+    all("cells_in_a_circle", [](LayoutLibrary& l) { l.cells[0].references.push_back({"outer", {}, false, 0}); });
+    all("cell_twice", [](LayoutLibrary& l) { l.cells[0].name = "outer"; });
     stream("cell_without_name", [](LayoutLibrary& l) { l.cells[1].name.clear(); });
     stream("cell_name_long", [](LayoutLibrary& l) { l.cells[1].name = std::string(33, 'a'); });
     stream("library_name_long", [](LayoutLibrary& l) { l.name = std::string(70'000, 'a'); });
@@ -79,10 +64,8 @@ void drawings(WrongUses& wrong) {
         stream("text_at_" + std::to_string(far), [far](LayoutLibrary& l) { l.cells[0].texts[0].at.y = far; });
         stream("reference_at_" + std::to_string(far), [far](LayoutLibrary& l) { l.cells[1].references[0].at.x = far; });
     }
-    for (const auto& [name, value] : not_finite()) {
-        stream("text_height_" + name, [value = value](LayoutLibrary& l) { l.cells[0].texts[0].height = value; });
-        stream("angle_" + name, [value = value](LayoutLibrary& l) { l.cells[1].references[0].degrees = value; });
-    }
+    stream("text_height", not_finite(), [](LayoutLibrary& l, double value) { l.cells[0].texts[0].height = value; });
+    stream("angle", not_finite(), [](LayoutLibrary& l, double value) { l.cells[1].references[0].degrees = value; });
     stream("text_height_too_large", [](LayoutLibrary& l) { l.cells[0].texts[0].height = 1e100; });
     stream("angle_too_large", [](LayoutLibrary& l) { l.cells[1].references[0].degrees = -1e100; });
     wrong("flattened_unknown", [] { keep(flattened(library(), "nothing")); });
@@ -91,28 +74,30 @@ void drawings(WrongUses& wrong) {
 
 void parts(WrongUses& wrong) {
     const Gas air{101'325, 1.8e-5, 6.8e-8};
-    for (const auto& [name, value] : not_positive()) {
-        wrong("capacitance_height_" + name, [value = value] { keep(capacitance_by_length(value, 1e-6, 1e-6)); });
-        wrong("capacitance_gap_" + name, [value = value] { keep(capacitance_by_length(1e-6, value, 1e-6)); });
-        wrong("plates_length_" + name, [value = value] { keep(equivalent_plates({value, 1e-5, 1e-5, {1e-6, 1e-6}})); });
-        wrong("plates_gap_" + name, [value = value] { keep(equivalent_plates({1e-4, 1e-5, 1e-5, {1e-6, value}})); });
-        wrong("plates_gap_top_" + name, [value = value] {
-            keep(equivalent_plates({1e-4, 1e-5, 1e-5, {value, 1e-6}}));
-        });
-        wrong("film_length_" + name, [value = value, air] {
-            keep(squeeze_film_damping({value, 1e-5, {1e-6, 1e-6}}, air));
-        });
-        wrong("film_gap_" + name, [value = value, air] {
-            keep(squeeze_film_damping({1e-4, 1e-5, {value, 1e-6}}, air));
-        });
-        wrong("film_gap_bottom_" + name, [value = value, air] {
-            keep(squeeze_film_damping({1e-4, 1e-5, {1e-6, value}}, air));
-        });
-        wrong("viscosity_gap_" + name, [value = value, air] { keep(effective_viscosity(air, value)); });
-        wrong("viscosity_pressure_" + name, [value = value] {
-            keep(effective_viscosity({value, 1.8e-5, 6.8e-8}, 1e-6));
-        });
-    }
+    wrong("capacitance_height", not_positive(), [](double value) { keep(capacitance_by_length(value, 1e-6, 1e-6)); });
+    wrong("capacitance_gap", not_positive(), [](double value) { keep(capacitance_by_length(1e-6, value, 1e-6)); });
+    wrong("plates_length", not_positive(), [](double value) {
+        keep(equivalent_plates({value, 1e-5, 1e-5, {1e-6, 1e-6}}));
+    });
+    wrong("plates_gap", not_positive(), [](double value) {
+        keep(equivalent_plates({1e-4, 1e-5, 1e-5, {1e-6, value}}));
+    });
+    wrong("plates_gap_top", not_positive(), [](double value) {
+        keep(equivalent_plates({1e-4, 1e-5, 1e-5, {value, 1e-6}}));
+    });
+    wrong("film_length", not_positive(), [air](double value) {
+        keep(squeeze_film_damping({value, 1e-5, {1e-6, 1e-6}}, air));
+    });
+    wrong("film_gap", not_positive(), [air](double value) {
+        keep(squeeze_film_damping({1e-4, 1e-5, {value, 1e-6}}, air));
+    });
+    wrong("film_gap_bottom", not_positive(), [air](double value) {
+        keep(squeeze_film_damping({1e-4, 1e-5, {1e-6, value}}, air));
+    });
+    wrong("viscosity_gap", not_positive(), [air](double value) { keep(effective_viscosity(air, value)); });
+    wrong("viscosity_pressure", not_positive(), [](double value) {
+        keep(effective_viscosity({value, 1.8e-5, 6.8e-8}, 1e-6));
+    });
     wrong("spring_of_nothing", [] { keep(properties_of(FoldedSpring())); });
     for (const int mask : {0, 3, -1})
         wrong("mask_" + std::to_string(mask),
@@ -123,14 +108,13 @@ void parts(WrongUses& wrong) {
 void designs(WrongUses& wrong) {
     static const Design design = load_design("mems-switch");
     const std::size_t count = design.dimensions.size();
-    for (const auto& [name, length] : wrong_lengths(count))
-        wrong("with_values_" + name, [length = length] { keep(with_values(design, std::vector<double>(length, 1))); });
-    for (const auto& [name, value] : not_finite())
-        wrong("with_values_" + name, [value = value, count] {
-            std::vector<double> values(count, 1);
-            values.back() = value;
-            keep(with_values(design, values));
-        });
+    wrong("with_values", wrong_lengths(count),
+          [](std::size_t length) { keep(with_values(design, std::vector<double>(length, 1))); });
+    wrong("with_values", not_finite(), [count](double value) {
+        std::vector<double> values(count, 1);
+        values.back() = value;
+        keep(with_values(design, values));
+    });
     wrong("design_unknown", [] { keep(load_design("nothing-there")); });
 }
 
@@ -145,29 +129,18 @@ Table table() {
 }
 
 void tables(WrongUses& wrong) {
-    for (const auto& [name, index] : wrong_indices(2)) {
-        wrong("table_number_row_" + name, [index = index] { keep(table().number(index, 0)); });
-        wrong("table_number_column_" + name, [index = index] { keep(table().number(0, index)); });
-        wrong("table_text_row_" + name, [index = index] { keep(std::string(table().text(index, 1))); });
-        wrong("table_text_column_" + name, [index = index] { keep(std::string(table().text(0, index))); });
-        wrong("table_is_text_row_" + name, [index = index] { keep(table().is_text(index, 0)); });
-        wrong("table_is_missing_column_" + name, [index = index] { keep(table().is_missing(0, index)); });
-    }
+    wrong("table_number_row", wrong_indices(2), [](std::size_t index) { keep(table().number(index, 0)); });
+    wrong("table_number_column", wrong_indices(2), [](std::size_t index) { keep(table().number(0, index)); });
+    wrong("table_text_row", wrong_indices(2), [](std::size_t index) { keep(std::string(table().text(index, 1))); });
+    wrong("table_text_column", wrong_indices(2), [](std::size_t index) { keep(std::string(table().text(0, index))); });
+    wrong("table_is_text_row", wrong_indices(2), [](std::size_t index) { keep(table().is_text(index, 0)); });
+    wrong("table_is_missing_column", wrong_indices(2), [](std::size_t index) { keep(table().is_missing(0, index)); });
     wrong("table_text_of_number", [] { keep(std::string(table().text(0, 0))); });
     wrong("table_of_no_columns", [] { keep(Table().number(0, 0)); });
 }
 
-std::vector<WrongUse> wrong_layout_uses() {
-    WrongUses wrong;
-    drawings(wrong);
-    parts(wrong);
-    designs(wrong);
-    tables(wrong);
-    return wrong.list();
-}
-
 TEST(WrongLayoutUse, IsRefused) {
-    each_of(wrong_layout_uses(), expect_refusal);
+    expect_refusals({drawings, parts, designs, tables});
 }
 
 /// A copy of a table owns its texts.

@@ -321,17 +321,11 @@ void outlived_searches(WrongUses& right) {
     });
 }
 
-std::vector<WrongUse> right_uses() {
-    WrongUses right;
-    outlived_expressions(right);
-    outlived_systems(right);
-    trajectories(right);
-    outlived_searches(right);
-    return right.list();
-}
-
 TEST(Lifetime, ObjectsOutliveThoseTheyWereMadeFrom) {
-    each_of(right_uses(), [](const auto& right) { EXPECT_NO_THROW(right.use()) << right.name; });
+    WrongUses right;
+    for (const auto add : {outlived_expressions, outlived_systems, trajectories, outlived_searches})
+        add(right);
+    each_of(right.list(), [](const auto& use) { EXPECT_NO_THROW(use.use()) << use.name; });
 }
 
 } // namespace

@@ -12,146 +12,110 @@ namespace {
 
 using namespace graze::testing;
 
-struct Defect {
-    std::string name;
-    std::function<void(Model&)> make;
-};
-
-std::vector<Defect> defects() {
-    const Expression nothing;
-    std::vector<Defect> list = {
-        {"no_graph", [](Model& m) { m.graph = nullptr; }},
-        {"no_states", [](Model& m) { m.states.clear(); }},
-        {"no_modes", [](Model& m) { m.modes.clear(); }},
-        {"no_jumps", [](Model& m) { m.jumps.clear(); }},
-        {"no_events", [](Model& m) { m.events.clear(); }},
-        {"no_parameters", [](Model& m) { m.parameters.clear(); }},
-        {"initial_nothing", [](Model& m) { m.states[0].initial = {}; }},
-        {"initial_in_states", [](Model& m) { m.states[0].initial = m.symbol("v"); }},
-        {"initial_undefined", [](Model& m) { m.states[0].initial = m.number(1) / m.number(0); }},
-        {"period_nothing", [](Model& m) { m.states[0].period = Expression(); }},
-        {"period_zero", [](Model& m) { m.states[2].period = m.number(0); }},
-        {"period_negative", [](Model& m) { m.states[2].period = m.number(-1); }},
-        {"period_in_states", [](Model& m) { m.states[2].period = m.symbol("x"); }},
-        {"state_without_name", [](Model& m) { m.states[0].name = ""; }},
-        {"state_named_twice", [](Model& m) { m.states[0].name = "v"; }},
-        {"state_named_as_parameter", [](Model& m) { m.states[0].name = "zeta"; }},
-        {"state_named_pi", [](Model& m) { m.states[0].name = "pi"; }},
-        {"state_more_than_rates", [](Model& m) { m.states.push_back({.name = "w", .initial = m.number(0)}); }},
-        {"parameter_without_value", [](Model& m) { m.parameters[0].value.reset(); }},
-        {"parameter_with_both", [](Model& m) { m.parameters[0].expression = m.number(1); }},
-        {"parameter_nan", [](Model& m) { m.parameters[0].value = not_a_number; }},
-        {"parameter_infinite", [](Model& m) { m.parameters[0].value = infinity; }},
-        {"parameter_named_twice", [](Model& m) { m.parameters[0].name = "omega"; }},
-        {"parameter_nothing",
-         [](Model& m) {
-             m.parameters[0].value.reset();
-             m.parameters[0].expression = Expression();
-         }},
-        {"parameter_in_states",
-         [](Model& m) {
-             m.parameters[0].value.reset();
-             m.parameters[0].expression = m.symbol("x");
-         }},
-        {"parameter_of_itself",
-         [](Model& m) {
-             m.parameters[0].value.reset();
-             m.parameters[0].expression = m.symbol("zeta") + 1;
-         }},
-        {"definition_nothing", [](Model& m) { m.definitions[0].value = {}; }},
-        {"definition_of_itself", [](Model& m) { m.definitions[0].value = m.symbol("force") + 1; }},
-        {"definition_unknown", [](Model& m) { m.definitions[0].value = m.symbol("unknown"); }},
-        {"definition_no_such_node", [](Model& m) { m.definitions[0].value = Expression(m.graph, 1'000'000); }},
-        {"definition_of_another_graph", [](Model& m) { m.definitions[0].value = Graph::create()->symbol("unknown"); }},
-        {"mode_without_name", [](Model& m) { m.modes[0].name = ""; }},
-        {"mode_named_twice", [](Model& m) { m.modes[0].name = "stuck"; }},
-        {"rates_none", [](Model& m) { m.modes[0].rates.clear(); }},
-        {"rates_too_few", [](Model& m) { m.modes[0].rates.pop_back(); }},
-        {"rates_too_many", [](Model& m) { m.modes[0].rates.push_back(m.number(0)); }},
-        {"rate_nothing", [](Model& m) { m.modes[0].rates[1] = {}; }},
-        {"rate_unknown", [](Model& m) { m.modes[0].rates[1] = m.symbol("unknown"); }},
-        {"rate_no_such_node", [](Model& m) { m.modes[0].rates[1] = Expression(m.graph, 1'000'000); }},
-        {"watched_twice",
-         [](Model& m) {
-             m.modes[0].watched = {0, 0};
-         }},
-        {"event_nothing", [](Model& m) { m.events[0].function = {}; }},
-        {"event_without_name", [](Model& m) { m.events[0].name = ""; }},
-        {"event_unknown", [](Model& m) { m.events[0].function = m.symbol("unknown"); }},
-        {"event_of_no_kind", [](Model& m) { m.events[0].kind = static_cast<EventKind>(77); }},
-        {"jump_0_no_identity",
-         [](Model& m) {
-             m.jumps[0].map = {m.number(0), m.number(0), m.number(0)};
-         }},
-        {"jump_map_empty", [](Model& m) { m.jumps[1].map.clear(); }},
-        {"jump_map_too_short", [](Model& m) { m.jumps[1].map.pop_back(); }},
-        {"jump_map_too_long", [](Model& m) { m.jumps[1].map.push_back(m.number(0)); }},
-        {"jump_map_nothing", [](Model& m) { m.jumps[1].map[0] = {}; }},
-        {"transition_without_next", [](Model& m) { m.transitions[0].next.clear(); }},
-        {"transition_twice", [](Model& m) { m.transitions.push_back(m.transitions[0]); }},
-        {"transition_missing", [](Model& m) { m.transitions.clear(); }},
-        {"transition_label_empty", [](Model& m) { m.transitions[0].label = ""; }},
-        {"condition_nothing", [](Model& m) { m.transitions[0].next[0].when[0].function = {}; }},
-        {"condition_unknown", [](Model& m) { m.transitions[0].next[0].when[0].function = m.symbol("unknown"); }},
-        {"section_of_nothing", [](Model& m) { m.sections[1].function = {}; }},
-        {"section_of_both", [](Model& m) { m.sections[1].state = 2; }},
-        {"section_value_nothing", [](Model& m) { m.sections[0].value = {}; }},
-        {"section_value_in_states", [](Model& m) { m.sections[0].value = m.symbol("x"); }},
-        {"section_state_not_cyclic", [](Model& m) { m.sections[0].state = 0; }},
-        {"section_in_no_direction", [](Model& m) { m.sections[1].direction = static_cast<Direction>(77); }},
-        {"section_without_name", [](Model& m) { m.sections[0].name = ""; }},
-        {"symmetry_map_empty",
-         [](Model& m) {
-             m.symmetries = {{.name = "s", .modes = {0, 1}}};
-         }},
-        {"symmetry_modes_empty", [](Model& m) { m.symmetries = {{.name = "s", .map = m.state_symbols()}}; }},
-        {"symmetry_map_nothing",
-         [](Model& m) {
-             m.symmetries = {{.name = "s", .map = std::vector<Expression>(3), .modes = {0, 1}}};
-         }},
-        {"symmetry_modes_twice",
-         [](Model& m) {
-             m.symmetries = {{.name = "s", .map = m.state_symbols(), .modes = {0, 0}}};
-         }},
-        {"quantity_nothing", [](Model& m) { m.quantities[0].value = {}; }},
-        {"quantity_unknown", [](Model& m) { m.quantities[0].value = m.symbol("unknown"); }},
-        {"all_of_moved_model", [](Model& m) { const Model moved = std::move(m); }},
-    };
-    for (const auto& [kind, index] : wrong_indices(2)) {
-        list.push_back({"watched_" + kind, [i = index](Model& m) { m.modes[0].watched = {i}; }});
-        list.push_back({"transition_mode_" + kind, [i = index](Model& m) { m.transitions[0].mode = i; }});
-        list.push_back({"transition_event_" + kind, [i = index](Model& m) { m.transitions[0].event = i; }});
-        list.push_back(
-            {"transition_jump_" + kind, [i = index](Model& m) { m.transitions[0].jump = i < 4 ? i + 1 : i; }});
-        list.push_back({"next_mode_" + kind, [i = index](Model& m) { m.transitions[0].next[0].mode = i; }});
-        list.push_back({"chatter_mode_" + kind, [i = index](Model& m) { m.transitions[0].chatter = Sticking{2, i}; }});
-        list.push_back({"chatter_jump_" + kind, [i = index](Model& m) {
-                            m.transitions[0].chatter = Sticking{i < 4 ? i + 1 : i, 1};
-                        }});
-        list.push_back({"section_state_" + kind, [i = index](Model& m) { m.sections[0].state = i < 4 ? i + 1 : i; }});
-        list.push_back({"symmetry_mode_" + kind, [i = index](Model& m) {
-                            m.symmetries = {{.name = "s", .map = m.state_symbols(), .modes = {0, i}}};
-                        }});
-        list.push_back({"initial_mode_" + kind, [i = index](Model& m) { m.initial_mode = i; }});
-    }
-    return list;
-}
-
 void defective_models(WrongUses& wrong) {
-    for (const Defect& defect : defects()) {
-        const auto with = [&](const std::string& name, const std::function<void(Model&)>& use) {
-            wrong(name + "_" + defect.name, [make = defect.make, use] {
-                Model model = oscillator();
-                make(model);
-                use(model);
-            });
-        };
-        with("validate", [](Model& model) { model.validate(); });
-        with("system", [](Model& model) { keep(System(model)); });
-        with("write_model", [](Model& model) { keep(write_model(model)); });
-        with("model_warnings", [](Model& model) { keep(model_warnings(model)); });
-        with("connectivity_graph", [](Model& model) { keep(connectivity_graph(model)); });
-    }
+    const auto model =
+        wrong.spoiled<Model>(oscillator, {{"validate", [](Model& m) { m.validate(); }},
+                                          {"system", [](Model& m) { keep(System(m)); }},
+                                          {"write_model", [](Model& m) { keep(write_model(m)); }},
+                                          {"model_warnings", [](Model& m) { keep(model_warnings(m)); }},
+                                          {"connectivity_graph", [](Model& m) { keep(connectivity_graph(m)); }}});
+    model("no_graph", [](Model& m) { m.graph = nullptr; });
+    model("no_states", [](Model& m) { m.states.clear(); });
+    model("no_modes", [](Model& m) { m.modes.clear(); });
+    model("no_jumps", [](Model& m) { m.jumps.clear(); });
+    model("no_events", [](Model& m) { m.events.clear(); });
+    model("no_parameters", [](Model& m) { m.parameters.clear(); });
+    model("initial_nothing", [](Model& m) { m.states[0].initial = {}; });
+    model("initial_in_states", [](Model& m) { m.states[0].initial = m.symbol("v"); });
+    model("initial_undefined", [](Model& m) { m.states[0].initial = m.number(1) / m.number(0); });
+    model("period_nothing", [](Model& m) { m.states[0].period = Expression(); });
+    model("period_zero", [](Model& m) { m.states[2].period = m.number(0); });
+    model("period_negative", [](Model& m) { m.states[2].period = m.number(-1); });
+    model("period_in_states", [](Model& m) { m.states[2].period = m.symbol("x"); });
+    model("state_without_name", [](Model& m) { m.states[0].name = ""; });
+    model("state_named_twice", [](Model& m) { m.states[0].name = "v"; });
+    model("state_named_as_parameter", [](Model& m) { m.states[0].name = "zeta"; });
+    model("state_named_pi", [](Model& m) { m.states[0].name = "pi"; });
+    model("state_more_than_rates", [](Model& m) { m.states.push_back({.name = "w", .initial = m.number(0)}); });
+    model("parameter_without_value", [](Model& m) { m.parameters[0].value.reset(); });
+    model("parameter_with_both", [](Model& m) { m.parameters[0].expression = m.number(1); });
+    model("parameter_nan", [](Model& m) { m.parameters[0].value = not_a_number; });
+    model("parameter_infinite", [](Model& m) { m.parameters[0].value = infinity; });
+    model("parameter_named_twice", [](Model& m) { m.parameters[0].name = "omega"; });
+    model("parameter_nothing", [](Model& m) {
+        m.parameters[0].value.reset();
+        m.parameters[0].expression = Expression();
+    });
+    model("parameter_in_states", [](Model& m) {
+        m.parameters[0].value.reset();
+        m.parameters[0].expression = m.symbol("x");
+    });
+    model("parameter_of_itself", [](Model& m) {
+        m.parameters[0].value.reset();
+        m.parameters[0].expression = m.symbol("zeta") + 1;
+    });
+    model("definition_nothing", [](Model& m) { m.definitions[0].value = {}; });
+    model("definition_of_itself", [](Model& m) { m.definitions[0].value = m.symbol("force") + 1; });
+    model("definition_unknown", [](Model& m) { m.definitions[0].value = m.symbol("unknown"); });
+    model("definition_no_such_node", [](Model& m) { m.definitions[0].value = Expression(m.graph, 1'000'000); });
+    model("definition_of_another_graph", [](Model& m) { m.definitions[0].value = Graph::create()->symbol("unknown"); });
+    model("mode_without_name", [](Model& m) { m.modes[0].name = ""; });
+    model("mode_named_twice", [](Model& m) { m.modes[0].name = "stuck"; });
+    model("rates_none", [](Model& m) { m.modes[0].rates.clear(); });
+    model("rates_too_few", [](Model& m) { m.modes[0].rates.pop_back(); });
+    model("rates_too_many", [](Model& m) { m.modes[0].rates.push_back(m.number(0)); });
+    model("rate_nothing", [](Model& m) { m.modes[0].rates[1] = {}; });
+    model("rate_unknown", [](Model& m) { m.modes[0].rates[1] = m.symbol("unknown"); });
+    model("rate_no_such_node", [](Model& m) { m.modes[0].rates[1] = Expression(m.graph, 1'000'000); });
+    model("watched_twice", [](Model& m) { m.modes[0].watched = {0, 0}; });
+    model("event_nothing", [](Model& m) { m.events[0].function = {}; });
+    model("event_without_name", [](Model& m) { m.events[0].name = ""; });
+    model("event_unknown", [](Model& m) { m.events[0].function = m.symbol("unknown"); });
+    model("event_of_no_kind", [](Model& m) { m.events[0].kind = static_cast<EventKind>(77); });
+    model("jump_0_no_identity", [](Model& m) { m.jumps[0].map = {m.number(0), m.number(0), m.number(0)}; });
+    model("jump_map_empty", [](Model& m) { m.jumps[1].map.clear(); });
+    model("jump_map_too_short", [](Model& m) { m.jumps[1].map.pop_back(); });
+    model("jump_map_too_long", [](Model& m) { m.jumps[1].map.push_back(m.number(0)); });
+    model("jump_map_nothing", [](Model& m) { m.jumps[1].map[0] = {}; });
+    model("transition_without_next", [](Model& m) { m.transitions[0].next.clear(); });
+    model("transition_twice", [](Model& m) { m.transitions.push_back(m.transitions[0]); });
+    model("transition_missing", [](Model& m) { m.transitions.clear(); });
+    model("transition_label_empty", [](Model& m) { m.transitions[0].label = ""; });
+    model("condition_nothing", [](Model& m) { m.transitions[0].next[0].when[0].function = {}; });
+    model("condition_unknown", [](Model& m) { m.transitions[0].next[0].when[0].function = m.symbol("unknown"); });
+    model("section_of_nothing", [](Model& m) { m.sections[1].function = {}; });
+    model("section_of_both", [](Model& m) { m.sections[1].state = 2; });
+    model("section_value_nothing", [](Model& m) { m.sections[0].value = {}; });
+    model("section_value_in_states", [](Model& m) { m.sections[0].value = m.symbol("x"); });
+    model("section_state_not_cyclic", [](Model& m) { m.sections[0].state = 0; });
+    model("section_in_no_direction", [](Model& m) { m.sections[1].direction = static_cast<Direction>(77); });
+    model("section_without_name", [](Model& m) { m.sections[0].name = ""; });
+    model("symmetry_map_empty", [](Model& m) { m.symmetries = {{.name = "s", .modes = {0, 1}}}; });
+    model("symmetry_modes_empty", [](Model& m) { m.symmetries = {{.name = "s", .map = m.state_symbols()}}; });
+    model("symmetry_map_nothing", [](Model& m) {
+        m.symmetries = {{.name = "s", .map = std::vector<Expression>(3), .modes = {0, 1}}};
+    });
+    model("symmetry_modes_twice", [](Model& m) {
+        m.symmetries = {{.name = "s", .map = m.state_symbols(), .modes = {0, 0}}};
+    });
+    model("quantity_nothing", [](Model& m) { m.quantities[0].value = {}; });
+    model("quantity_unknown", [](Model& m) { m.quantities[0].value = m.symbol("unknown"); });
+    model("all_of_moved_model", [](Model& m) { const Model moved = std::move(m); });
+    model("watched", wrong_indices(2), [](Model& m, std::size_t i) { m.modes[0].watched = {i}; });
+    model("transition_mode", wrong_indices(2), [](Model& m, std::size_t i) { m.transitions[0].mode = i; });
+    model("transition_event", wrong_indices(2), [](Model& m, std::size_t i) { m.transitions[0].event = i; });
+    model("transition_jump", wrong_indices(2),
+          [](Model& m, std::size_t i) { m.transitions[0].jump = i < 4 ? i + 1 : i; });
+    model("next_mode", wrong_indices(2), [](Model& m, std::size_t i) { m.transitions[0].next[0].mode = i; });
+    model("chatter_mode", wrong_indices(2), [](Model& m, std::size_t i) { m.transitions[0].chatter = Sticking{2, i}; });
+    model("chatter_jump", wrong_indices(2), [](Model& m, std::size_t i) {
+        m.transitions[0].chatter = Sticking{i < 4 ? i + 1 : i, 1};
+    });
+    model("section_state", wrong_indices(2), [](Model& m, std::size_t i) { m.sections[0].state = i < 4 ? i + 1 : i; });
+    model("symmetry_mode", wrong_indices(2), [](Model& m, std::size_t i) {
+        m.symmetries = {{.name = "s", .map = m.state_symbols(), .modes = {0, i}}};
+    });
+    model("initial_mode", wrong_indices(2), [](Model& m, std::size_t i) { m.initial_mode = i; });
 }
 
 void moved_models(WrongUses& wrong) {
@@ -294,18 +258,8 @@ void microbeams(WrongUses& wrong) {
             });
 }
 
-std::vector<WrongUse> wrong_model_uses() {
-    WrongUses wrong;
-    defective_models(wrong);
-    moved_models(wrong);
-    questions(wrong);
-    files(wrong);
-    microbeams(wrong);
-    return wrong.list();
-}
-
 TEST(WrongModelUse, IsRefused) {
-    each_of(wrong_model_uses(), expect_refusal);
+    expect_refusals({defective_models, moved_models, questions, files, microbeams});
 }
 
 } // namespace

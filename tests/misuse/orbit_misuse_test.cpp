@@ -14,81 +14,59 @@ namespace {
 
 using namespace graze::testing;
 
-struct OrbitDefect {
-    std::string name;
-    std::function<void(Orbit&)> make;
-};
-
-std::vector<OrbitDefect> orbit_defects() {
-    std::vector<OrbitDefect> list = {
-        {"by_default", [](Orbit& o) { o = {}; }},
-        {"signature_empty", [](Orbit& o) { o.signature.clear(); }},
-        {"signature_longer", [](Orbit& o) { o.signature.push_back(o.signature[0]); }},
-        {"segment_without_end", [](Orbit& o) { o.signature[0].end = static_cast<SegmentEnd>(9); }},
-        {"segment_by_default", [](Orbit& o) { o.signature[0] = {.mode = 1}; }},
-        {"start_missing", [](Orbit& o) { o.starts.clear(); }},
-        {"start_too_many", [](Orbit& o) { o.starts.push_back(o.starts[0]); }},
-        {"duration_missing", [](Orbit& o) { o.durations.clear(); }},
-        {"duration_too_many", [](Orbit& o) { o.durations.push_back(1); }},
-        {"duration_negative", [](Orbit& o) { o.durations[0] = -1; }},
-        {"symmetry_0", [](Orbit& o) { o.symmetry = 0; }},
-        {"symmetry_1", [](Orbit& o) { o.symmetry = 1; }},
-        {"symmetry_huge", [](Orbit& o) { o.symmetry = huge; }},
-    };
-    for (const auto& [kind, length] : wrong_lengths(5))
-        list.push_back({"parameters_" + kind, [n = length](Orbit& o) { o.parameters.resize(n); }});
-    for (const auto& [kind, length] : wrong_lengths(3))
-        list.push_back({"start_" + kind, [n = length](Orbit& o) { o.starts[0].resize(n); }});
-    for (const auto& [kind, value] : not_finite()) {
-        list.push_back({"parameter_" + kind, [v = value](Orbit& o) { o.parameters[0] = v; }});
-        list.push_back({"start_" + kind, [v = value](Orbit& o) { o.starts[0][1] = v; }});
-        list.push_back({"duration_" + kind, [v = value](Orbit& o) { o.durations[0] = v; }});
-    }
-    for (const auto& [kind, index] : wrong_indices(2)) {
-        list.push_back({"mode_" + kind, [i = index](Orbit& o) { o.signature[0].mode = i; }});
-        list.push_back({"section_" + kind, [i = index](Orbit& o) { o.signature[0].index = i; }});
-        list.push_back(
-            {"transition_" + kind, [i = index](Orbit& o) { o.signature[0] = {.end = SegmentEnd::event, .index = i}; }});
-    }
-    return list;
+Orbit right_orbit() {
+    return {.signature = {{.mode = 0, .end = SegmentEnd::section, .index = 0}},
+            .parameters = calm_oscillator().parameter_values(),
+            .starts = {{0.1, 0.1, 0}},
+            .durations = {5.2},
+            .symmetry = std::nullopt};
 }
 
 void defective_orbits(WrongUses& wrong) {
-    const Orbit right{.signature = {{.mode = 0, .end = SegmentEnd::section, .index = 0}},
-                      .parameters = calm_oscillator().parameter_values(),
-                      .starts = {{0.1, 0.1, 0}},
-                      .durations = {5.2},
-                      .symmetry = std::nullopt};
-    for (const OrbitDefect& defect : orbit_defects()) {
-        const auto with = [&](const std::string& name, const std::function<void(const Model&, const Orbit&)>& use) {
-            wrong(name + "_" + defect.name, [make = defect.make, right, use] {
-                Orbit orbit = right;
-                make(orbit);
-                use(calm_oscillator(), orbit);
-            });
-        };
-        with("validate_orbit", [](const Model& m, const Orbit& o) { validate_orbit(m, o); });
-        with("solve_orbit", [](const Model& m, const Orbit& o) { keep(solve_orbit(System(m), o)); });
-        with("whole_orbit", [](const Model& m, const Orbit& o) { keep(whole_orbit(System(m), o)); });
-        with("half_orbit", [](const Model& m, const Orbit& o) { keep(half_orbit(System(m), o)); });
-        with("orbit_branch", [](const Model& m, const Orbit& o) { keep(OrbitBranch(System(m), o, by_amplitude())); });
-        with("follow_branch",
-             [](const Model& m, const Orbit& o) { keep(follow_branch(System(m), o, by_amplitude())); });
-        with("monitors", [](const Model& m, const Orbit& o) {
-            OrbitMonitors monitors(System(m), calm_orbit().signature, {{.name = "period"}});
-            keep(monitors(o));
-        });
-        with("image_of", [](const Model&, const Orbit& o) {
-            keep(image_of(System(symmetric_oscillator()), 0, o.signature.empty() ? Segment{huge} : o.signature[0], o));
-        });
-    }
+    const auto orbit = wrong.spoiled<Orbit>(
+        right_orbit,
+        {{"validate_orbit", [](Orbit& o) { validate_orbit(calm_oscillator(), o); }},
+         {"solve_orbit", [](Orbit& o) { keep(solve_orbit(System(calm_oscillator()), o)); }},
+         {"whole_orbit", [](Orbit& o) { keep(whole_orbit(System(calm_oscillator()), o)); }},
+         {"half_orbit", [](Orbit& o) { keep(half_orbit(System(calm_oscillator()), o)); }},
+         {"orbit_branch", [](Orbit& o) { keep(OrbitBranch(System(calm_oscillator()), o, by_amplitude())); }},
+         {"follow_branch", [](Orbit& o) { keep(follow_branch(System(calm_oscillator()), o, by_amplitude())); }},
+         {"monitors",
+          [](Orbit& o) {
+              keep(OrbitMonitors(System(calm_oscillator()), calm_orbit().signature, {{.name = "period"}})(o));
+          }},
+         {"image_of", [](Orbit& o) {
+              keep(
+                  image_of(System(symmetric_oscillator()), 0, o.signature.empty() ? Segment{huge} : o.signature[0], o));
+          }}});
+    orbit("by_default", [](Orbit& o) { o = {}; });
+    orbit("signature_empty", [](Orbit& o) { o.signature.clear(); });
+    orbit("signature_longer", [](Orbit& o) { o.signature.push_back(o.signature[0]); });
+    orbit("segment_without_end", [](Orbit& o) { o.signature[0].end = static_cast<SegmentEnd>(9); });
+    orbit("segment_by_default", [](Orbit& o) { o.signature[0] = {.mode = 1}; });
+    orbit("start_missing", [](Orbit& o) { o.starts.clear(); });
+    orbit("start_too_many", [](Orbit& o) { o.starts.push_back(o.starts[0]); });
+    orbit("duration_missing", [](Orbit& o) { o.durations.clear(); });
+    orbit("duration_too_many", [](Orbit& o) { o.durations.push_back(1); });
+    orbit("duration_negative", [](Orbit& o) { o.durations[0] = -1; });
+    orbit("symmetry_0", [](Orbit& o) { o.symmetry = 0; });
+    orbit("symmetry_1", [](Orbit& o) { o.symmetry = 1; });
+    orbit("symmetry_huge", [](Orbit& o) { o.symmetry = huge; });
+    orbit("parameters", wrong_lengths(5), [](Orbit& o, std::size_t n) { o.parameters.resize(n); });
+    orbit("start", wrong_lengths(3), [](Orbit& o, std::size_t n) { o.starts[0].resize(n); });
+    orbit("parameter", not_finite(), [](Orbit& o, double v) { o.parameters[0] = v; });
+    orbit("start", not_finite(), [](Orbit& o, double v) { o.starts[0][1] = v; });
+    orbit("duration", not_finite(), [](Orbit& o, double v) { o.durations[0] = v; });
+    orbit("mode", wrong_indices(2), [](Orbit& o, std::size_t i) { o.signature[0].mode = i; });
+    orbit("section", wrong_indices(2), [](Orbit& o, std::size_t i) { o.signature[0].index = i; });
+    orbit("transition", wrong_indices(2),
+          [](Orbit& o, std::size_t i) { o.signature[0] = {.end = SegmentEnd::event, .index = i}; });
     // With an orbit of the symmetric model: half orbits have more requirements than whole ones.
-    for (const auto& [kind, index] : wrong_indices(symmetric_oscillator().symmetries.size())) {
-        wrong("image_under_symmetry_" + kind,
-              [right, i = index] { keep(image_of(System(symmetric_oscillator()), i, right.signature[0], right)); });
-        wrong("validate_signature_symmetry_" + kind,
-              [right, i = index] { validate_signature(symmetric_oscillator(), right.signature, {}, i); });
-    }
+    const Orbit right = right_orbit();
+    wrong("image_under_symmetry", wrong_indices(symmetric_oscillator().symmetries.size()),
+          [right](std::size_t i) { keep(image_of(System(symmetric_oscillator()), i, right.signature[0], right)); });
+    wrong("validate_signature_symmetry", wrong_indices(symmetric_oscillator().symmetries.size()),
+          [right](std::size_t i) { validate_signature(symmetric_oscillator(), right.signature, {}, i); });
 }
 
 void signatures(WrongUses& wrong) {
@@ -122,25 +100,19 @@ void signatures(WrongUses& wrong) {
 }
 
 void wrong_orbit_options(WrongUses& wrong) {
-    const auto option = [&](const std::string& name, const std::function<void(OrbitOptions&)>& set) {
-        const auto made = [set] {
-            OrbitOptions wrong_orbit_options;
-            set(wrong_orbit_options);
-            return wrong_orbit_options;
-        };
-        wrong("orbit_options_" + name, [made] { made().validate(); });
-        wrong("solve_orbit_with_" + name,
-              [made] { keep(solve_orbit(System(calm_oscillator()), calm_orbit(), made())); });
-        wrong("find_orbit_with_" + name, [made] { keep(find_orbit(System(calm_oscillator()), by_phase(), made())); });
-        wrong("orbit_with_signature_with_" + name, [made] {
-            keep(orbit_with_signature(System(calm_oscillator()), parse_signature(oscillator(), "phase0"), made()));
-        });
-    };
+    using Options = OrbitOptions;
+    const auto option = wrong.spoiled<Options>(
+        [] { return Options(); },
+        {{"orbit_options", &Options::validate},
+         {"solve_orbit_with", [](Options& o) { keep(solve_orbit(System(calm_oscillator()), calm_orbit(), o)); }},
+         {"find_orbit_with", [](Options& o) { keep(find_orbit(System(calm_oscillator()), by_phase(), o)); }},
+         {"orbit_with_signature_with", [](Options& o) {
+              keep(orbit_with_signature(System(calm_oscillator()), parse_signature(oscillator(), "phase0"), o));
+          }}});
     for (const double value : {0.0, -1.0, 1.0, 1e-17, not_a_number, infinity})
-        option("tolerance_" + std::to_string(value), [value](OrbitOptions& o) { o.tolerance = value; });
-    for (const auto& [kind, value] : not_positive())
-        option("accuracy_" + kind, [v = value](OrbitOptions& o) { o.accuracy = v; });
-    option("iterations_0", [](OrbitOptions& o) { o.iterations = 0; });
+        option("tolerance_" + std::to_string(value), [value](Options& o) { o.tolerance = value; });
+    option("accuracy", not_positive(), [](Options& o, double v) { o.accuracy = v; });
+    option("iterations_0", [](Options& o) { o.iterations = 0; });
     wrong("find_orbit_simulation_options",
           [] { keep(find_orbit(System(calm_oscillator()), by_phase(), {}, {.tolerance = not_a_number})); });
     wrong("find_orbit_of_two_graphs_model", [] {
@@ -148,10 +120,8 @@ void wrong_orbit_options(WrongUses& wrong) {
         model.states.clear();
         keep(find_orbit(System(model), by_phase()));
     });
-    for (const auto& [kind, value] :
-         std::vector<std::pair<std::string, double>>{{"negative", -1}, {"nan", not_a_number}, {"infinite", infinity}})
-        wrong("half_orbit_tolerance_" + kind,
-              [v = value] { keep(half_orbit(System(symmetric_oscillator()), calm_orbit(), v)); });
+    wrong("half_orbit_tolerance", negative(),
+          [](double v) { keep(half_orbit(System(symmetric_oscillator()), calm_orbit(), v)); });
     const auto search = [&](const std::string& name, const SignatureSearchOptions& limits) {
         wrong("signature_search_" + name, [limits] {
             keep(orbit_with_signature(System(calm_oscillator()), parse_signature(oscillator(), "phase0"), {}, {},
@@ -169,26 +139,18 @@ void motions(WrongUses& wrong) {
         std::size_t mode = 0;
         double time = 1;
     };
-    const auto motion = [&](const std::string& name, const std::function<void(Given&)>& spoil) {
-        wrong("follow_motion_" + name, [spoil] {
-            Given given;
-            spoil(given);
-            keep(
-                follow_motion(Simulation(System(oscillator())), given.parameters, given.state, given.mode, given.time));
-        });
-    };
-    for (const auto& [kind, length] : wrong_lengths(5))
-        motion("parameters_" + kind, [n = length](Given& g) { g.parameters.resize(n); });
-    for (const auto& [kind, length] : wrong_lengths(3))
-        motion("state_" + kind, [n = length](Given& g) { g.state.resize(n); });
-    for (const auto& [kind, value] : not_finite()) {
-        motion("parameter_" + kind, [v = value](Given& g) { g.parameters[0] = v; });
-        motion("state_" + kind, [v = value](Given& g) { g.state[0] = v; });
-        motion("time_" + kind, [v = value](Given& g) { g.time = v; });
-    }
+    const auto motion =
+        wrong.spoiled<Given>([] { return Given(); }, {{"follow_motion", [](Given& g) {
+                                                           keep(follow_motion(Simulation(System(oscillator())),
+                                                                              g.parameters, g.state, g.mode, g.time));
+                                                       }}});
+    motion("parameters", wrong_lengths(5), [](Given& g, std::size_t n) { g.parameters.resize(n); });
+    motion("state", wrong_lengths(3), [](Given& g, std::size_t n) { g.state.resize(n); });
+    motion("parameter", not_finite(), [](Given& g, double v) { g.parameters[0] = v; });
+    motion("state", not_finite(), [](Given& g, double v) { g.state[0] = v; });
+    motion("time", not_finite(), [](Given& g, double v) { g.time = v; });
     motion("time_negative", [](Given& g) { g.time = -1; });
-    for (const auto& [kind, index] : wrong_indices(2))
-        motion("mode_" + kind, [i = index](Given& g) { g.mode = i; });
+    motion("mode", wrong_indices(2), [](Given& g, std::size_t i) { g.mode = i; });
     for (const std::string table : {"", "t,x,v,theta\n", "segment,t,x,v\n1,0,0,0\n", "segment,t,x,v,theta\n",
                                     "segment,t,x,v,theta\n1,0,0,0,0\n", "segment,t,x,v,theta\n1,0,0,0,0\n1,nan,0,0,0\n",
                                     "segment,t,x,v,theta\n1,1,0,0,0\n1,0,0,0,0\n", "segment,t,x,v,theta\n2,0,0,0,0\n",
@@ -203,17 +165,8 @@ void motions(WrongUses& wrong) {
     wrong("name_of_no_orbit_outcome", [] { keep(std::string(name_of(static_cast<OrbitOutcome>(99)))); });
 }
 
-std::vector<WrongUse> wrong_orbit_uses() {
-    WrongUses wrong;
-    defective_orbits(wrong);
-    signatures(wrong);
-    wrong_orbit_options(wrong);
-    motions(wrong);
-    return wrong.list();
-}
-
 TEST(WrongOrbitUse, IsRefused) {
-    each_of(wrong_orbit_uses(), expect_refusal);
+    expect_refusals({defective_orbits, signatures, wrong_orbit_options, motions});
 }
 
 } // namespace

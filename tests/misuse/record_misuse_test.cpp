@@ -56,8 +56,7 @@ Period period() {
 }
 
 void samples(WrongUses& wrong) {
-    for (const auto& [name, last] : wrong_indices(401))
-        wrong("append_last_" + name, [last = last] { Samples().append(wave(), 0, last); });
+    wrong("append_last", wrong_indices(401), [](std::size_t last) { Samples().append(wave(), 0, last); });
     wrong("append_reversed", [] { Samples().append(wave(), 5, 4); });
     wrong("append_other_channels", [] {
         Samples all = wave(), other = wave();
@@ -75,20 +74,13 @@ void samples(WrongUses& wrong) {
         ragged.values[1].clear();
         ragged.drop_front(5);
     });
-    const auto stored = [&](const std::string& name, const std::function<void(Samples&)>& change) {
-        wrong("stored_" + name, [change] {
-            Samples changed = wave();
-            change(changed);
-            StoredSamples(header(), changed);
-        });
-    };
+    const auto stored =
+        wrong.spoiled<Samples>([] { return wave(); }, {{"stored", [](Samples& s) { StoredSamples(header(), s); }}});
     stored("other_channels", [](Samples& s) { s.values.pop_back(); });
     stored("ragged", [](Samples& s) { s.values[0].pop_back(); });
     stored("times_fall", [](Samples& s) { s.times[3] = s.times[2]; });
-    for (const auto& [name, value] : not_finite()) {
-        stored("time_" + name, [value = value](Samples& s) { s.times[3] = value; });
-        stored("value_" + name, [value = value](Samples& s) { s.values[1][3] = value; });
-    }
+    stored("time", not_finite(), [](Samples& s, double value) { s.times[3] = value; });
+    stored("value", not_finite(), [](Samples& s, double value) { s.values[1][3] = value; });
     wrong("channel_unknown", [] { keep(header().channel("y", "me")); });
     wrong("channel_time", [] { keep(header().channel("t", "me")); });
     wrong("read_all_too_many", [] {
@@ -100,26 +92,21 @@ void samples(WrongUses& wrong) {
 void writers(WrongUses& wrong) {
     for (const std::string ending : {"h5", "csv"}) {
         const auto writer = [&](const std::string& name, const std::function<void(RecordWriter&)>& use) {
-            wrong("writer_" + ending + "_" + name, [use, ending] {
-                const TemporaryFolder folder;
+            wrong("writer_" + ending + "_" + name, [use, ending](TemporaryFolder& folder) {
                 RecordWriter writer(folder / ("r." + ending), header());
                 use(writer);
             });
         };
-        const auto written = [&](const std::string& name, const std::function<void(Samples&)>& change) {
-            writer(name, [change](RecordWriter& w) {
-                Samples changed = wave();
-                change(changed);
-                w.write(changed);
-            });
-        };
+        const auto written = wrong.spoiled<Samples>([] { return wave(); },
+                                                    {{"writer_" + ending, [ending](Samples& s) {
+                                                          const TemporaryFolder folder;
+                                                          RecordWriter(folder / ("r." + ending), header()).write(s);
+                                                      }}});
         written("other_channels", [](Samples& s) { s.values.pop_back(); });
         written("more_channels", [](Samples& s) { s.values.push_back(s.times); });
         written("ragged", [](Samples& s) { s.values[1].pop_back(); });
-        for (const auto& [name, value] : not_finite()) {
-            written("time_" + name, [value = value](Samples& s) { s.times[1] = value; });
-            written("value_" + name, [value = value](Samples& s) { s.values[0][1] = value; });
-        }
+        written("time", not_finite(), [](Samples& s, double value) { s.times[1] = value; });
+        written("value", not_finite(), [](Samples& s, double value) { s.values[0][1] = value; });
         writer("write_after_close", [](RecordWriter& w) {
             w.close();
             w.write(wave());
@@ -129,18 +116,12 @@ void writers(WrongUses& wrong) {
             w.close();
         });
         wrong("writer_" + ending + "_no_folder", [ending] { RecordWriter("/nowhere/at/all/r." + ending, header()); });
-        wrong("writer_" + ending + "_no_name", [ending] {
-            const TemporaryFolder folder;
-            RecordHeader nameless = header();
-            nameless.channels[0].name.clear();
-            RecordWriter(folder / ("r." + ending), nameless);
-        });
-        wrong("writer_" + ending + "_name_twice", [ending] {
-            const TemporaryFolder folder;
-            RecordHeader twice = header();
-            twice.channels[1].name = twice.channels[0].name;
-            RecordWriter(folder / ("r." + ending), twice);
-        });
+        const auto headed = wrong.spoiled<RecordHeader>(header, {{"writer_" + ending, [ending](RecordHeader& h) {
+                                                                      const TemporaryFolder folder;
+                                                                      RecordWriter(folder / ("r." + ending), h);
+                                                                  }}});
+        headed("no_name", [](RecordHeader& h) { h.channels[0].name.clear(); });
+        headed("name_twice", [](RecordHeader& h) { h.channels[1].name = h.channels[0].name; });
         wrong("open_missing_" + ending, [ending] { open_record("/nowhere/at/all/r." + ending); });
     }
     wrong("open_folder", [] { open_record("/"); });
@@ -226,28 +207,24 @@ void estimates(WrongUses& wrong) {
     wrong("coupling_of_nothing", [] { coupling({}, {.gap = 1, .stiffness = 1}); });
     wrong("impedance_of_nothing", [] { impedance({}, {}, {}); });
     wrong("impedance_ragged", [] { impedance(wave().times, wave().values[0], std::vector<double>(3, 1)); });
-    for (const auto& [name, value] : not_finite()) {
-        wrong("residuals_" + name, [value = value] { test_residuals(std::vector<double>{1, value, 3}); });
-        wrong("restitution_" + name, [value = value] {
-            restitution(std::vector<ImpactSpeeds>{{-1, 1}, {value, 1}, {-2, 2}});
-        });
-        wrong("coupling_" + name, [value = value] {
-            coupling(std::vector<StaticLoad>{{1, 1}, {2, value}, {3, 3}, {4, 5}}, {.gap = 10, .stiffness = 1});
-        });
-        wrong("impedance_" + name, [value = value] {
-            std::vector<double> voltage = wave().values[0];
-            voltage[7] = value;
-            impedance(wave().times, voltage, wave().values[1]);
-        });
-    }
-    for (const auto& [name, value] : not_positive()) {
-        wrong("coupling_gap_" + name, [value = value] {
-            coupling(std::vector<StaticLoad>{{0.1, 1}, {0.2, 2}, {0.3, 3}}, {.gap = value, .stiffness = 1});
-        });
-        wrong("coupling_stiffness_" + name, [value = value] {
-            coupling(std::vector<StaticLoad>{{0.1, 1}, {0.2, 2}, {0.3, 3}}, {.gap = 1, .stiffness = value});
-        });
-    }
+    wrong("residuals", not_finite(), [](double value) { test_residuals(std::vector<double>{1, value, 3}); });
+    wrong("restitution", not_finite(), [](double value) {
+        restitution(std::vector<ImpactSpeeds>{{-1, 1}, {value, 1}, {-2, 2}});
+    });
+    wrong("coupling", not_finite(), [](double value) {
+        coupling(std::vector<StaticLoad>{{1, 1}, {2, value}, {3, 3}, {4, 5}}, {.gap = 10, .stiffness = 1});
+    });
+    wrong("impedance", not_finite(), [](double value) {
+        std::vector<double> voltage = wave().values[0];
+        voltage[7] = value;
+        impedance(wave().times, voltage, wave().values[1]);
+    });
+    wrong("coupling_gap", not_positive(), [](double value) {
+        coupling(std::vector<StaticLoad>{{0.1, 1}, {0.2, 2}, {0.3, 3}}, {.gap = value, .stiffness = 1});
+    });
+    wrong("coupling_stiffness", not_positive(), [](double value) {
+        coupling(std::vector<StaticLoad>{{0.1, 1}, {0.2, 2}, {0.3, 3}}, {.gap = 1, .stiffness = value});
+    });
 }
 
 /// An instrument that never answers.
@@ -260,36 +237,23 @@ public:
 };
 
 void experiments(WrongUses& wrong) {
-    for (const auto& [name, value] : not_finite()) {
-        wrong("awaited_line_" + name, [value = value] {
-            SilentLine line;
-            awaited_line(line, value, {}, "the generator");
-        });
-        wrong("watch_tolerance_" + name, [value = value] { RepeatWatch({0.1, value}, 1, 1); });
-        wrong("watch_section_" + name, [value = value] { RepeatWatch({0.1, 0.1}, 1, 1).add({value, 1}); });
-    }
+    wrong("awaited_line", not_finite(), [](double value) {
+        SilentLine line;
+        awaited_line(line, value, {}, "the generator");
+    });
+    wrong("watch_tolerance", not_finite(), [](double value) { RepeatWatch({0.1, value}, 1, 1); });
+    wrong("watch_section", not_finite(), [](double value) { RepeatWatch({0.1, 0.1}, 1, 1).add({value, 1}); });
     wrong("watch_tolerance_negative", [] { RepeatWatch({-0.1}, 1, 1); });
-    for (const auto& [name, length] : wrong_lengths(2))
-        wrong("watch_section_" + name, [length = length] {
-            RepeatWatch({0.1, 0.1}, 1, 1).add(std::vector<double>(length, 1));
-        });
+    wrong("watch_section", wrong_lengths(2), [](std::size_t length) {
+        RepeatWatch({0.1, 0.1}, 1, 1).add(std::vector<double>(length, 1));
+    });
     wrong("watch_no_repeats", [] { RepeatWatch({0.1}, 0, 1); });
     wrong("watch_no_period", [] { RepeatWatch({0.1}, 1, 0); });
     wrong("watch_period_huge", [] { RepeatWatch({0.1}, 1, huge); });
 }
 
-std::vector<WrongUse> wrong_record_uses() {
-    WrongUses wrong;
-    samples(wrong);
-    writers(wrong);
-    stages(wrong);
-    estimates(wrong);
-    experiments(wrong);
-    return wrong.list();
-}
-
 TEST(WrongRecordUse, IsRefused) {
-    each_of(wrong_record_uses(), expect_refusal);
+    expect_refusals({samples, writers, stages, estimates, experiments});
 }
 
 /// Huge repetition counts must not overflow.

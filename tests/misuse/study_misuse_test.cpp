@@ -82,12 +82,7 @@ struct Results {
 };
 
 void result_files(WrongUses& wrong) {
-    const auto of = [&](const std::string& name, const std::function<void(Results&)>& use) {
-        wrong("results_" + name, [use] {
-            Results results;
-            use(results);
-        });
-    };
+    const auto of = [&](const std::string& name, const auto& use) { wrong("results_" + name, use); };
     using Access = ResultFile::Access;
     of("second_writer", [](Results& r) { ResultFile(r.path(), Access::write); });
     of("read_no_file", [](Results& r) { ResultFile(r.path("none"), Access::read); });
@@ -114,13 +109,8 @@ void result_files(WrongUses& wrong) {
     reading("remove_run", [](ResultFile& f) { f.remove_run("sweep"); });
     reading("add_point", [](ResultFile& f) { f.add_point("sweep", Results::point()); });
     reading("complete_run", [](ResultFile& f) { f.complete_run("sweep"); });
-    const auto begin = [&](const std::string& name, const std::function<void(RunRecord&)>& spoil) {
-        of("begin_run_" + name, [spoil](Results& r) {
-            RunRecord run = Results::sweep();
-            spoil(run);
-            r.file->begin_run(run);
-        });
-    };
+    const auto begin = wrong.spoiled<RunRecord>(
+        Results::sweep, {{"results_begin_run", [](RunRecord& run) { Results().file->begin_run(run); }}});
     begin("by_default", [](RunRecord& run) { run = {}; });
     begin("without_name", [](RunRecord& run) { run.name = ""; });
     begin("name_of_folder", [](RunRecord& run) { run.name = "../x"; });
@@ -141,15 +131,12 @@ void result_files(WrongUses& wrong) {
     of("orbits_unknown", [](Results& r) { keep(r.file->orbits("unknown", false)); });
     of("orbits_of_sweep", [](Results& r) { keep(r.file->orbits("sweep", false)); });
     of("orbit_unknown", [](Results& r) { keep(r.file->orbit("unknown", 0)); });
-    const auto point = [&](const std::string& name, const std::function<void(PointRecord&)>& spoil) {
-        of("add_point_" + name, [spoil](Results& r) {
-            PointRecord record = Results::point();
-            spoil(record);
-            r.file->add_point("sweep", record);
-            r.file->flush();
-            keep(r.file->point("sweep", record.number));
-        });
-    };
+    const auto point = wrong.spoiled<PointRecord>(Results::point, {{"results_add_point", [](PointRecord& record) {
+                                                                        const Results r;
+                                                                        r.file->add_point("sweep", record);
+                                                                        r.file->flush();
+                                                                        keep(r.file->point("sweep", record.number));
+                                                                    }}});
     of("add_point_to_unknown", [](Results& r) { r.file->add_point("unknown", Results::point()); });
     of("add_point_to_branch", [](Results& r) {
         r.file->begin_run(Results::branch());
@@ -159,34 +146,23 @@ void result_files(WrongUses& wrong) {
         r.file->add_point("sweep", Results::point());
         r.file->add_point("sweep", Results::point());
     });
-    for (const auto& [kind, length] : wrong_lengths(2)) {
-        point("coordinates_" + kind, [n = length](PointRecord& p) { p.coordinates.resize(n); });
-        point("values_" + kind, [n = length](PointRecord& p) { p.result.samples.values.resize(n); });
-    }
-    for (const auto& [kind, length] : wrong_lengths(3))
-        point("state_" + kind, [n = length](PointRecord& p) { p.result.state.resize(n); });
-    for (const auto& [kind, length] : wrong_lengths(1))
-        point("samplings_" + kind, [n = length](PointRecord& p) { p.result.samples.samplings.resize(n); });
+    point("coordinates", wrong_lengths(2), [](PointRecord& p, std::size_t n) { p.coordinates.resize(n); });
+    point("values", wrong_lengths(2), [](PointRecord& p, std::size_t n) { p.result.samples.values.resize(n); });
+    point("state", wrong_lengths(3), [](PointRecord& p, std::size_t n) { p.result.state.resize(n); });
+    point("samplings", wrong_lengths(1), [](PointRecord& p, std::size_t n) { p.result.samples.samplings.resize(n); });
     point("width", [](PointRecord& p) { p.result.samples.width = 3; });
-    for (const auto& [kind, index] : wrong_indices(2))
-        point("mode_" + kind, [i = index](PointRecord& p) { p.result.mode = i; });
-    for (const auto& [kind, index] : wrong_indices(1)) {
-        point("direction_" + kind, [i = index](PointRecord& p) { p.direction = i; });
-        point("sampling_" + kind, [i = index](PointRecord& p) { p.result.samples.samplings = {i}; });
-    }
-    for (const auto& [kind, index] : wrong_indices(4))
-        point("number_" + kind, [i = index](PointRecord& p) { p.number = i; });
+    point("mode", wrong_indices(2), [](PointRecord& p, std::size_t i) { p.result.mode = i; });
+    point("direction", wrong_indices(1), [](PointRecord& p, std::size_t i) { p.direction = i; });
+    point("sampling", wrong_indices(1), [](PointRecord& p, std::size_t i) { p.result.samples.samplings = {i}; });
+    point("number", wrong_indices(4), [](PointRecord& p, std::size_t i) { p.number = i; });
     point("no_label", [](PointRecord& p) { p.result.label = static_cast<Label>(99); });
-    const auto orbit = [&](const std::string& name, const std::function<void(OrbitRecord&)>& spoil) {
-        of("add_orbit_" + name, [spoil](Results& r) {
-            OrbitRecord record = Results::orbit();
-            spoil(record);
-            r.file->begin_run(Results::branch());
-            r.file->add_orbit("branch", record);
-            r.file->flush();
-            keep(r.file->orbits("branch", false));
-        });
-    };
+    const auto orbit = wrong.spoiled<OrbitRecord>(Results::orbit, {{"results_add_orbit", [](OrbitRecord& record) {
+                                                                        const Results r;
+                                                                        r.file->begin_run(Results::branch());
+                                                                        r.file->add_orbit("branch", record);
+                                                                        r.file->flush();
+                                                                        keep(r.file->orbits("branch", false));
+                                                                    }}});
     of("add_orbit_to_unknown", [](Results& r) { r.file->add_orbit("unknown", Results::orbit()); });
     of("add_orbit_to_sweep", [](Results& r) { r.file->add_orbit("sweep", Results::orbit()); });
     orbit("by_default", [](OrbitRecord& o) { o = {}; });
@@ -203,8 +179,7 @@ void result_files(WrongUses& wrong) {
 
 void rows(WrongUses& wrong) {
     const auto row = [&](const std::string& name, const std::function<void(ResultFile::Rows&)>& use) {
-        wrong("rows_" + name, [use] {
-            Results results;
+        wrong("rows_" + name, [use](Results& results) {
             ResultFile::Rows one = results.file->query("select name, points from runs");
             use(one);
         });
@@ -251,10 +226,7 @@ void rows(WrongUses& wrong) {
     });
     for (const std::string sql : {"", "  ", "garbage", "select", "select * from unknown", "delete from runs",
                                   "select 1; select 2", "pragma journal_mode=delete", "attach 'x' as y", "select ?1"})
-        wrong("query_" + sql, [sql] {
-            Results results;
-            keep(results.file->query(sql).next());
-        });
+        wrong("query_" + sql, [sql](Results& results) { keep(results.file->query(sql).next()); });
     wrong("query_values_too_many", [] { keep(Results().file->query("select ?1", {1, 2}).next()); });
     wrong("patience_negative", [] { Results().file->set_patience(std::chrono::milliseconds(-1)); });
     wrong("stored_model_of_nothing", [] { keep(stored_model({})); });
@@ -265,35 +237,48 @@ void rows(WrongUses& wrong) {
     });
     for (const std::string path : {"", "/no/such/folder/file.h5", "/tmp"})
         wrong("export_hdf5_to_" + path, [path] { export_hdf5(*Results().file, {"sweep"}, path); });
-    wrong("export_hdf5_unknown", [] {
-        const Results results;
-        export_hdf5(*results.file, {"unknown"}, results.path("a.h5"));
-    });
-    wrong("export_hdf5_twice", [] {
-        const Results results;
+    wrong("export_hdf5_unknown",
+          [](Results& results) { export_hdf5(*results.file, {"unknown"}, results.path("a.h5")); });
+    wrong("export_hdf5_twice", [](Results& results) {
         export_hdf5(*results.file, {"sweep", "sweep"}, results.path("a.h5"));
     });
-    wrong("export_hdf5_over_its_own_source", [] {
-        const Results results;
-        export_hdf5(*results.file, {"sweep"}, results.path());
-    });
+    wrong("export_hdf5_over_its_own_source",
+          [](Results& results) { export_hdf5(*results.file, {"sweep"}, results.path()); });
     wrong("spectrum_of_nothing", [] { keep(spectrum({}, 1)); });
-    for (const auto& [kind, value] : not_positive())
-        wrong("spectrum_frequency_" + kind, [v = value] { keep(spectrum(std::vector<double>{1, 2, 3, 4}, v)); });
-    for (const auto& [kind, value] : not_finite()) {
-        wrong("spectrum_sample_" + kind, [v = value] { keep(spectrum(std::vector<double>{1, v, 3, 4}, 1)); });
-        wrong("regression_" + kind, [v = value] { keep(regression(std::vector{1.0, v}, std::vector{1.0, 2.0})); });
-        wrong("regression_y_" + kind, [v = value] { keep(regression(std::vector{1.0, 2.0}, std::vector{1.0, v})); });
-    }
-    for (const auto& [kind, length] : wrong_lengths(3)) {
-        wrong("regression_x_" + kind, [n = length] {
-            keep(regression(std::vector(n, 1.0), std::vector{1.0, 2.0, 3.0}));
-        });
-        wrong("regression_y_" + kind, [n = length] {
-            keep(regression(std::vector{1.0, 2.0, 3.0}, std::vector(n, 1.0)));
-        });
-    }
+    wrong("spectrum_frequency", not_positive(), [](double v) { keep(spectrum(std::vector<double>{1, 2, 3, 4}, v)); });
+    wrong("spectrum_sample", not_finite(), [](double v) { keep(spectrum(std::vector<double>{1, v, 3, 4}, 1)); });
+    wrong("regression", not_finite(), [](double v) { keep(regression(std::vector{1.0, v}, std::vector{1.0, 2.0})); });
+    wrong("regression_y", not_finite(), [](double v) { keep(regression(std::vector{1.0, 2.0}, std::vector{1.0, v})); });
+    wrong("regression_x", wrong_lengths(3), [](std::size_t n) {
+        keep(regression(std::vector(n, 1.0), std::vector{1.0, 2.0, 3.0}));
+    });
+    wrong("regression_y", wrong_lengths(3), [](std::size_t n) {
+        keep(regression(std::vector{1.0, 2.0, 3.0}, std::vector(n, 1.0)));
+    });
 }
+
+/// A study with one run of two motions, and what it is run with.
+struct OneRun {
+    Study study;
+    std::unique_ptr<Results> results = std::make_unique<Results>();
+    RunnerOptions options;
+    OneRun() {
+        study.name = "study";
+        StudyRun& one = study.runs.emplace_back();
+        one.name = "a";
+        one.model = oscillator();
+        one.motion().transient.time = 0.1;
+        one.motion().axes = {{.name = "amplitude",
+                              .unit = "",
+                              .parameter = oscillator().independent_parameter("amplitude"),
+                              .values = {0.5, 1}}};
+    }
+    void run() {
+        for (const RunReport& report : run_study(study, *results->file, options))
+            if (report.outcome == RunOutcome::failed)
+                throw InputError(report.problem, report.remedy);
+    }
+};
 
 void studies(WrongUses& wrong) {
     for (const std::string text : {"", "garbage", "name = 'a'", "name = 'a'\n[runs.a]\n", "name = 1", "[", "\xff",
@@ -305,79 +290,40 @@ void studies(WrongUses& wrong) {
         wrong("shipped_study_text_" + name, [name] { keep(shipped_study_text(name)); });
     }
     wrong("name_of_no_run_kind", [] { keep(std::string(name_of(static_cast<RunKind>(99)))); });
-    const auto run = [&](const std::string& name, const std::function<void(Study&, Results&, RunnerOptions&)>& spoil) {
-        wrong("run_study_" + name, [spoil] {
-            Study study;
-            study.name = "study";
-            study.runs.resize(1);
-            StudyRun& one = study.runs[0];
-            one.name = "a";
-            one.model = oscillator();
-            one.motion().transient.time = 0.1;
-            one.motion().axes = {{.name = "amplitude",
-                                  .unit = "",
-                                  .parameter = oscillator().independent_parameter("amplitude"),
-                                  .values = {0.5, 1}}};
-            Results results;
-            RunnerOptions options;
-            spoil(study, results, options);
-            for (const RunReport& report : run_study(study, *results.file, options))
-                if (report.outcome == RunOutcome::failed)
-                    throw InputError(report.problem, report.remedy);
-        });
-    };
+    const auto run = wrong.spoiled<OneRun>([] { return OneRun(); }, {{"run_study", &OneRun::run}});
     for (const int jobs : {0, -1})
-        run("jobs_" + std::to_string(jobs), [jobs](Study&, Results&, RunnerOptions& o) { o.jobs = jobs; });
-    run("only_unknown", [](Study&, Results&, RunnerOptions& o) { o.only = {"unknown"}; });
-    run("read_only", [](Study&, Results& r, RunnerOptions&) {
-        r.file = nullptr;
-        r.file = std::make_unique<ResultFile>(r.path(), ResultFile::Access::read);
+        run("jobs_" + std::to_string(jobs), [jobs](OneRun& r) { r.options.jobs = jobs; });
+    run("only_unknown", [](OneRun& r) { r.options.only = {"unknown"}; });
+    run("read_only", [](OneRun& r) {
+        r.results->file = nullptr;
+        r.results->file = std::make_unique<ResultFile>(r.results->path(), ResultFile::Access::read);
     });
-    run("run_by_default", [](Study& s, Results&, RunnerOptions&) { s.runs[0] = {}; });
-    run("run_twice", [](Study& s, Results&, RunnerOptions&) { s.runs.push_back(s.runs[0]); });
-    run("run_of_no_kind", [](Study& s, Results&, RunnerOptions&) { s.runs[0].kind = static_cast<RunKind>(99); });
-    run("start_unknown", [](Study& s, Results&, RunnerOptions&) { s.runs[0].start.emplace().run = "unknown"; });
-    run("values_without_names",
-        [](Study& s, Results&, RunnerOptions&) { s.runs[0].values = {s.runs[0].model.symbol("x")}; });
-    run("value_of_nothing", [](Study& s, Results&, RunnerOptions&) {
-        s.runs[0].values.resize(1);
-        s.runs[0].value_names = s.runs[0].value_units = {"a"};
+    run("run_by_default", [](OneRun& r) { r.study.runs[0] = {}; });
+    run("run_twice", [](OneRun& r) { r.study.runs.push_back(r.study.runs[0]); });
+    run("run_of_no_kind", [](OneRun& r) { r.study.runs[0].kind = static_cast<RunKind>(99); });
+    run("start_unknown", [](OneRun& r) { r.study.runs[0].start.emplace().run = "unknown"; });
+    run("values_without_names", [](OneRun& r) { r.study.runs[0].values = {r.study.runs[0].model.symbol("x")}; });
+    run("value_of_nothing", [](OneRun& r) {
+        r.study.runs[0].values.resize(1);
+        r.study.runs[0].value_names = r.study.runs[0].value_units = {"a"};
     });
-    for (const auto& [kind, index] : wrong_indices(5))
-        run("axis_parameter_" + kind,
-            [i = index](Study& s, Results&, RunnerOptions&) { s.runs[0].motion().axes[0].parameter = ParameterId(i); });
-    for (const auto& [kind, index] : wrong_indices(oscillator().states.size()))
-        run("axis_state_" + kind,
-            [i = index](Study& s, Results&, RunnerOptions&) { s.runs[0].motion().axes[0].state = i; });
-    run("axis_of_another_name", [](Study& s, Results&, RunnerOptions&) { s.runs[0].motion().axes[0].name = "omega"; });
-    run("axis_nan", [](Study& s, Results&, RunnerOptions&) { s.runs[0].motion().axes[0].values = {not_a_number}; });
-    run("axis_without_values", [](Study& s, Results&, RunnerOptions&) { s.runs[0].motion().axes[0].values.clear(); });
-    run("no_end", [](Study& s, Results&, RunnerOptions&) { s.runs[0].motion().transient = {}; });
+    run("axis_parameter", wrong_indices(5),
+        [](OneRun& r, std::size_t i) { r.study.runs[0].motion().axes[0].parameter = ParameterId(i); });
+    run("axis_state", wrong_indices(oscillator().states.size()),
+        [](OneRun& r, std::size_t i) { r.study.runs[0].motion().axes[0].state = i; });
+    run("axis_of_another_name", [](OneRun& r) { r.study.runs[0].motion().axes[0].name = "omega"; });
+    run("axis_nan", [](OneRun& r) { r.study.runs[0].motion().axes[0].values = {not_a_number}; });
+    run("axis_without_values", [](OneRun& r) { r.study.runs[0].motion().axes[0].values.clear(); });
+    run("no_end", [](OneRun& r) { r.study.runs[0].motion().transient = {}; });
     wrong("plan_of_default_run", [] { keep(plan_of({}, System(oscillator()), nullptr)); });
-    for (const auto& [kind, index] : wrong_indices(1)) {
-        wrong("coordinates_of_point_" + kind, [i = index] {
-            StudyRun one;
-            one.motion().axes = {{.name = "amplitude", .unit = "", .values = {0.5}}};
-            keep(coordinates_of(one, i));
-        });
-        wrong("direction_of_point_" + kind, [i = index] {
-            StudyRun one;
-            one.motion().axes = {{.name = "amplitude", .unit = "", .values = {0.5}}};
-            keep(direction_of(one, i));
-        });
-    }
-}
-
-std::vector<WrongUse> wrong_study_uses() {
-    WrongUses wrong;
-    result_files(wrong);
-    rows(wrong);
-    studies(wrong);
-    return wrong.list();
+    StudyRun one;
+    one.motion().axes = {{.name = "amplitude", .unit = "", .values = {0.5}}};
+    wrong("coordinates_of_point", wrong_indices(1), [one](std::size_t i) { keep(coordinates_of(one, i)); });
+    wrong("direction_of_point", wrong_indices(1), [one](std::size_t i) { keep(direction_of(one, i)); });
 }
 
 TEST(WrongStudyUse, IsRefused) {
-    each_of(wrong_study_uses(), expect_refusal);
+    expect_refusals({result_files, rows, studies});
 }
 
 } // namespace

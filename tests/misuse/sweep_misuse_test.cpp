@@ -14,94 +14,68 @@ namespace {
 using namespace graze::testing;
 
 using Values = std::vector<Expression>;
-using Samplings = std::vector<Sampling>;
 
 Sampling at_phase() {
     return {.name = "phase0", .section = "phase0"};
 }
-std::unique_ptr<SearchFactory> searches(const AttractorOptions& options = by_phase()) {
+std::unique_ptr<SearchFactory> searches(const AttractorOptions& options = by_phase(),
+                                        const Sampling& sampling = at_phase()) {
     const Model model = oscillator();
-    return attractor_searches(System(model), options, {at_phase()}, {model.symbol("v")}, {});
+    return attractor_searches(System(model), options, {sampling}, {model.symbol("v")}, {});
+}
+std::unique_ptr<SearchFactory> short_searches(const Sampling& sampling = at_phase()) {
+    const Model model = oscillator();
+    return transient_searches(System(model), {.time = 1}, {sampling}, {model.symbol("v")}, {});
 }
 
 void attractor_options(WrongUses& wrong) {
-    const auto option = [&](const std::string& name, const std::function<void(AttractorOptions&)>& set) {
-        const auto made = [set] {
-            AttractorOptions options = by_phase();
-            set(options);
-            return options;
-        };
-        wrong("attractor_options_" + name, [made] { made().validate(oscillator()); });
-        wrong("attractor_searches_" + name, [made] { keep(searches(made())); });
-        wrong("find_orbit_" + name, [made] { keep(find_orbit(System(calm_oscillator()), made())); });
-    };
-    option("section_empty", [](AttractorOptions& o) { o.section = ""; });
-    option("section_unknown", [](AttractorOptions& o) { o.section = "unknown"; });
-    option("cycles_0", [](AttractorOptions& o) { o.cycles = 0; });
-    option("largest_period_0", [](AttractorOptions& o) { o.largest_period = 0; });
-    option("largest_period_huge", [](AttractorOptions& o) { o.largest_period = huge; });
-    for (const auto& [kind, value] : not_positive())
-        option("recurrence_" + kind, [value = value](AttractorOptions& o) { o.recurrence = value; });
-    for (const auto& [kind, value] : negative()) {
-        option("disturbance_" + kind, [value = value](AttractorOptions& o) { o.disturbance = value; });
-        option("longest_return_" + kind, [value = value](AttractorOptions& o) { o.longest_return = value; });
-    }
-    for (const auto& [kind, index] : wrong_indices(3))
-        option("bounds_state_" + kind, [i = index](AttractorOptions& o) { o.bounds = {{i, 0, 1}}; });
-    option("bounds_reversed", [](AttractorOptions& o) { o.bounds = {{0, 1, 0}}; });
-    option("bounds_nan", [](AttractorOptions& o) { o.bounds = {{0, not_a_number, 1}}; });
+    using Options = AttractorOptions;
+    const auto option = wrong.spoiled<Options>(
+        by_phase, {{"attractor_options", [](Options& o) { o.validate(oscillator()); }},
+                   {"attractor_searches", [](Options& o) { keep(searches(o)); }},
+                   {"find_orbit", [](Options& o) { keep(find_orbit(System(calm_oscillator()), o)); }}});
+    option("section_empty", [](Options& o) { o.section = ""; });
+    option("section_unknown", [](Options& o) { o.section = "unknown"; });
+    option("cycles_0", [](Options& o) { o.cycles = 0; });
+    option("largest_period_0", [](Options& o) { o.largest_period = 0; });
+    option("largest_period_huge", [](Options& o) { o.largest_period = huge; });
+    option("recurrence", not_positive(), [](Options& o, double value) { o.recurrence = value; });
+    option("disturbance", negative(), [](Options& o, double value) { o.disturbance = value; });
+    option("longest_return", negative(), [](Options& o, double value) { o.longest_return = value; });
+    option("bounds_state", wrong_indices(3), [](Options& o, std::size_t i) { o.bounds = {{i, 0, 1}}; });
+    option("bounds_reversed", [](Options& o) { o.bounds = {{0, 1, 0}}; });
+    option("bounds_nan", [](Options& o) { o.bounds = {{0, not_a_number, 1}}; });
 }
 
 void transient_options(WrongUses& wrong) {
-    const auto option = [&](const std::string& name, const std::function<void(TransientOptions&)>& set) {
-        const auto made = [set] {
-            TransientOptions options{.section = "phase0", .time = 1};
-            set(options);
-            return options;
-        };
-        wrong("transient_options_" + name, [made] { made().validate(oscillator()); });
-        wrong("transient_searches_" + name,
-              [made] { keep(transient_searches(System(oscillator()), made(), {}, {}, {})); });
-    };
-    option("no_end", [](TransientOptions& o) { o.time = 0; });
-    option("section_unknown", [](TransientOptions& o) { o.section = "unknown"; });
-    option("periods_without_section", [](TransientOptions& o) {
+    using Options = TransientOptions;
+    const auto option = wrong.spoiled<Options>(
+        [] { return Options{.section = "phase0", .time = 1}; },
+        {{"transient_options", [](Options& o) { o.validate(oscillator()); }},
+         {"transient_searches", [](Options& o) { keep(transient_searches(System(oscillator()), o, {}, {}, {})); }}});
+    option("no_end", [](Options& o) { o.time = 0; });
+    option("section_unknown", [](Options& o) { o.section = "unknown"; });
+    option("periods_without_section", [](Options& o) {
         o.section = "";
         o.periods = 3;
     });
-    option("contacts_of_nothing", [](TransientOptions& o) { o.contacts = 3; });
-    for (const auto& [kind, index] : wrong_indices(2))
-        option("counted_" + kind, [i = index](TransientOptions& o) {
-            o.contacts = 3;
-            o.counted = {i};
-        });
-    for (const auto& [kind, value] : negative()) {
-        option("time_" + kind, [value = value](TransientOptions& o) { o.time = value; });
-        option("skip_time_" + kind, [value = value](TransientOptions& o) { o.skip_time = value; });
-        option("greatest_speed_" + kind, [value = value](TransientOptions& o) { o.greatest_speed = value; });
-    }
-    for (const auto& [kind, index] : wrong_indices(3))
-        option("bounds_state_" + kind, [i = index](TransientOptions& o) { o.bounds = {{i, 0, 1}}; });
-    option("bounds_reversed", [](TransientOptions& o) { o.bounds = {{0, 1, 0}}; });
-    option("bounds_nan", [](TransientOptions& o) { o.bounds = {{0, not_a_number, 1}}; });
+    option("contacts_of_nothing", [](Options& o) { o.contacts = 3; });
+    option("counted", wrong_indices(2), [](Options& o, std::size_t i) {
+        o.contacts = 3;
+        o.counted = {i};
+    });
+    option("time", negative(), [](Options& o, double value) { o.time = value; });
+    option("skip_time", negative(), [](Options& o, double value) { o.skip_time = value; });
+    option("greatest_speed", negative(), [](Options& o, double value) { o.greatest_speed = value; });
+    option("bounds_state", wrong_indices(3), [](Options& o, std::size_t i) { o.bounds = {{i, 0, 1}}; });
+    option("bounds_reversed", [](Options& o) { o.bounds = {{0, 1, 0}}; });
+    option("bounds_nan", [](Options& o) { o.bounds = {{0, not_a_number, 1}}; });
 }
 
 void samplings(WrongUses& wrong) {
-    const auto sampling = [&](const std::string& name, const std::function<void(Sampling&)>& spoil) {
-        const auto made = [spoil] {
-            Sampling one = at_phase();
-            spoil(one);
-            return Samplings{one};
-        };
-        wrong("attractor_sampling_" + name, [made] {
-            const Model model = oscillator();
-            keep(attractor_searches(System(model), by_phase(), made(), Values{model.symbol("v")}, {}));
-        });
-        wrong("transient_sampling_" + name, [made] {
-            const Model model = oscillator();
-            keep(transient_searches(System(model), {.time = 1}, made(), Values{model.symbol("v")}, {}));
-        });
-    };
+    const auto sampling =
+        wrong.spoiled<Sampling>(at_phase, {{"attractor_sampling", [](Sampling& s) { keep(searches(by_phase(), s)); }},
+                                           {"transient_sampling", [](Sampling& s) { keep(short_searches(s)); }}});
     sampling("by_default", [](Sampling& s) { s = {}; });
     sampling("section_unknown", [](Sampling& s) { s.section = "unknown"; });
     sampling("nowhere", [](Sampling& s) { s.at = static_cast<Sampling::At>(9); });
@@ -109,11 +83,9 @@ void samplings(WrongUses& wrong) {
     sampling("extremum_of_unknown",
              [](Sampling& s) { s = {.at = Sampling::At::extremum, .expression = Graph::create()->symbol("unknown")}; });
     sampling("contact_of_nothing", [](Sampling& s) { s = {.at = Sampling::At::contact}; });
-    for (const auto& [kind, index] : wrong_indices(2))
-        sampling("contact_event_" + kind,
-                 [i = index](Sampling& s) { s = {.at = Sampling::At::contact, .events = {i}}; });
-    for (const auto& [kind, index] : wrong_indices(0))
-        sampling("symmetry_" + kind, [i = index](Sampling& s) { s.symmetry = i; });
+    sampling("contact_event", wrong_indices(2),
+             [](Sampling& s, std::size_t i) { s = {.at = Sampling::At::contact, .events = {i}}; });
+    sampling("symmetry", wrong_indices(0), [](Sampling& s, std::size_t i) { s.symmetry = i; });
     for (const auto& [kind, value] : std::vector<std::pair<std::string, Expression>>{
              {"nothing", {}}, {"unknown", Graph::create()->symbol("unknown")}}) {
         wrong("attractor_value_" + kind, [value = value] {
@@ -130,10 +102,7 @@ void samplings(WrongUses& wrong) {
 void point_searches(WrongUses& wrong) {
     const auto both = [&](const std::string& name, const std::function<void(PointSearch&)>& use) {
         wrong("attractor_search_" + name, [use] { use(*searches()->make()); });
-        wrong("transient_search_" + name, [use] {
-            const Model model = oscillator();
-            use(*transient_searches(System(model), {.time = 1}, {at_phase()}, {model.symbol("v")}, {})->make());
-        });
+        wrong("transient_search_" + name, [use] { use(*short_searches()->make()); });
     };
     const std::vector<double> parameters = oscillator().parameter_values(), state = oscillator().initial_state();
     for (const auto& [kind, length] : wrong_lengths(5))
@@ -167,13 +136,9 @@ struct Execution {
 };
 
 void executions(WrongUses& wrong) {
-    const auto execution = [&](const std::string& name, const std::function<void(Execution&)>& spoil) {
-        wrong("execute_" + name, [spoil] {
-            Execution e;
-            spoil(e);
-            keep(execute(e.plan, *e.factory, e.progress, e.options, e.sink));
-        });
-    };
+    const auto execution = wrong.spoiled<Execution>(
+        [] { return Execution(); },
+        {{"execute", [](Execution& e) { keep(execute(e.plan, *e.factory, e.progress, e.options, e.sink)); }}});
     execution("without_start", [](Execution& e) { e.plan.start = {}; });
     execution("without_sink", [](Execution& e) { e.sink = {}; });
     execution("no_chains", [](Execution& e) { e.plan.chains = 0; });
@@ -220,18 +185,8 @@ void executions(WrongUses& wrong) {
     wrong("name_of_no_label", [] { keep(std::string(name_of(static_cast<Label>(99)))); });
 }
 
-std::vector<WrongUse> wrong_sweep_uses() {
-    WrongUses wrong;
-    attractor_options(wrong);
-    transient_options(wrong);
-    samplings(wrong);
-    point_searches(wrong);
-    executions(wrong);
-    return wrong.list();
-}
-
 TEST(WrongSweepUse, IsRefused) {
-    each_of(wrong_sweep_uses(), expect_refusal);
+    expect_refusals({attractor_options, transient_options, samplings, point_searches, executions});
 }
 
 } // namespace

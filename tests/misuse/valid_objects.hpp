@@ -5,8 +5,6 @@
 #include "graze/model/model_file.hpp"
 #include "graze/trajectory/trajectory.hpp"
 
-#include <vector>
-
 namespace graze::testing {
 
 /// A model with three states, five parameters, two modes, events, transitions and sections, and three jumps.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -12,9 +11,9 @@
 #include <limits>
 #include <ostream>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <typeinfo>
 #include <utility>
 #include <vector>
@@ -231,7 +230,55 @@ inline bool is_among(std::span<const std::string_view> patterns, std::string_vie
 /// Collects wrong uses under names that are valid in GoogleTest.
 class WrongUses {
 public:
-    void operator()(std::string name, std::function<void()> use) {
+    /// @param use takes nothing, or one object, which is made for it
+    template <class Use>
+    void operator()(std::string name, Use use) {
+        add(std::move(name), std::function(std::move(use)));
+    }
+    /// Adds a use for each value of a list.
+    /// @param use takes a value, or an object, which is made for it, and a value
+    template <class Value, class Use>
+    void operator()(const std::string& name, const std::vector<std::pair<std::string, Value>>& values, Use use) {
+        for (const auto& [how, value] : values)
+            add(name + "_" + how, std::function(use), value);
+    }
+    /// Adds uses of an object with a mistake, each under its own name and that of the mistake.
+    template <class Object>
+    class Spoiled {
+    public:
+        using Uses = std::vector<std::pair<std::string, std::function<void(Object&)>>>;
+        /// @param make returns the object without a mistake
+        Spoiled(WrongUses& wrong, std::function<Object()> make, Uses uses)
+            : wrong_(wrong), make_(std::move(make)), uses_(std::move(uses)) {}
+        void operator()(const std::string& mistake, const std::function<void(Object&)>& spoil) const {
+            for (const auto& [name, use] : uses_)
+                wrong_(name + "_" + mistake, [make = make_, spoil, use = use] {
+                    Object object = make();
+                    spoil(object);
+                    use(object);
+                });
+        }
+        /// The same for a mistake with each value of a list.
+        template <class Value>
+        void operator()(const std::string& mistake, const std::vector<std::pair<std::string, Value>>& values,
+                        const std::type_identity_t<std::function<void(Object&, Value)>>& spoil) const {
+            for (const auto& [how, value] : values)
+                (*this)(mistake + "_" + how, [spoil, value = value](Object& object) { spoil(object, value); });
+        }
+
+    private:
+        WrongUses& wrong_;
+        std::function<Object()> make_;
+        Uses uses_;
+    };
+    template <class Object>
+    Spoiled<Object> spoiled(std::function<Object()> make, typename Spoiled<Object>::Uses uses) {
+        return {*this, std::move(make), std::move(uses)};
+    }
+    const std::vector<WrongUse>& list() const { return list_; }
+
+private:
+    void add(std::string name, std::function<void()> use) {
         for (char& c : name)
             if (!std::isalnum(static_cast<unsigned char>(c)))
                 c = '_';
@@ -244,9 +291,21 @@ public:
             name += "_again" + std::to_string(same);
         list_.push_back({std::move(name), std::move(use)});
     }
-    const std::vector<WrongUse>& list() const { return list_; }
-
-private:
+    template <class Object>
+    void add(std::string name, std::function<void(Object&)> use) {
+        add(std::move(name), std::function([use] {
+                Object object;
+                use(object);
+            }));
+    }
+    template <class Value>
+    void add(std::string name, std::function<void(Value)> use, Value value) {
+        add(std::move(name), std::function([=] { use(value); }));
+    }
+    template <class Object, class Value>
+    void add(std::string name, std::function<void(Object&, Value)> use, Value value) {
+        add(std::move(name), std::function([=](Object& object) { use(object, value); }));
+    }
     std::vector<WrongUse> list_;
 };
 
@@ -317,6 +376,14 @@ inline void each_of(const std::vector<WrongUse>& uses, const std::function<void(
             std::fprintf(stderr, "%s\n", use.name.c_str());
         visit(use);
     }
+}
+
+/// Expects that all uses that some functions add are refused.
+inline void expect_refusals(const std::vector<void (*)(WrongUses&)>& functions) {
+    WrongUses wrong;
+    for (const auto add : functions)
+        add(wrong);
+    each_of(wrong.list(), expect_refusal);
 }
 
 } // namespace graze::testing

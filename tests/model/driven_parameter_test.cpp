@@ -18,30 +18,14 @@ using testing::evaluate;
 
 Model pushed() {
     return parse_model(R"toml(
-[parameters]
-p = 2
-twice = "2*p"
-q = 5
-[states]
-x = "p"
-theta = { initial = 0, period = "q" }
-[definitions]
-force = "twice + p*x"
-[modes.only]
-rates = { x = "force", theta = 1 }
-watch = ["wall"]
-[events.wall]
-function = "q*p - x"
-[jumps.back]
-x = "x - p"
-[[transitions]]
-mode = "only"
-event = "wall"
-jump = "back"
-next = "only"
-[sections.start]
-state = "theta"
-value = 0
+parameters = { p = 2, twice = "2*p", q = 5 }
+states = { x = "p", theta = { initial = 0, period = "q" } }
+definitions = { force = "twice + p*x" }
+modes.only = { rates = { x = "force", theta = 1 }, watch = ["wall"] }
+events = { wall = "q*p - x" }
+jumps.back.x = "x - p"
+transitions = [{ mode = "only", event = "wall", jump = "back", next = "only" }]
+sections.start = { state = "theta", value = 0 }
 )toml",
                        "pushed.toml");
 }

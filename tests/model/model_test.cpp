@@ -1,7 +1,6 @@
 #include "graze/model/model.hpp"
 
 #include "graze/base/input_error.hpp"
-#include "graze/symbolic/function.hpp"
 #include "graze/symbolic/transform.hpp"
 
 #include <gtest/gtest.h>
@@ -9,7 +8,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numbers>
 
 namespace graze {
 namespace {
@@ -23,8 +21,7 @@ Model ball() {
     model.parameters.push_back({"twice", "", "", {}, 2 * model.symbol("g")});
     model.states.push_back({"x", "m", "", model.graph->number(1), {}, false});
     model.states.push_back({"v", "m/s", "", model.graph->number(0), {}, false});
-    const Expression x = model.symbol("x");
-    const Expression v = model.symbol("v");
+    const Expression x = model.symbol("x"), v = model.symbol("v");
     model.definitions.push_back({"weight", "", -model.symbol("g")});
     model.events.push_back({"contact", "", x, EventKind::barrier});
     model.jumps.push_back({"impact", "", {x, -model.symbol("e") * v}});

@@ -1,7 +1,5 @@
 #include "graze/model/parameter_file.hpp"
 
-#include "graze/base/input_error.hpp"
-
 #include <gmock/gmock.h>
 
 namespace graze::testing {

@@ -5,9 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <stdexcept>
-#include <vector>
-
 namespace graze {
 namespace {
 

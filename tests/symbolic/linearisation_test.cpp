@@ -10,9 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <random>
-#include <stdexcept>
 #include <string>
 
 namespace graze {

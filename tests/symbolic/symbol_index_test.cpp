@@ -4,9 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <stdexcept>
 #include <string>
-#include <vector>
 
 namespace graze {
 namespace {

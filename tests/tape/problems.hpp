@@ -76,15 +76,10 @@ inline std::vector<double> state_series(const Problem& problem, std::size_t stat
 /// A problem in which every operation occurs, analytic near the given values.
 inline Problem everything() {
     Problem p;
-    const Expression x = p.state("x", 0.3);
-    const Expression y = p.state("y", 0.7);
-    const Expression z = p.state("z", -0.4);
-    const Expression phase = p.state("phase", 0.9);
-    const Expression frozen = p.state("frozen", 1.1);
-    const Expression a = p.parameter("a", 0.8);
-    const Expression b = p.parameter("b", 1.3);
-    const Expression exponent = p.parameter("exponent", 1.7);
-    const Expression unused = p.parameter("unused", 5);
+    const Expression x = p.state("x", 0.3), y = p.state("y", 0.7), z = p.state("z", -0.4);
+    const Expression phase = p.state("phase", 0.9), frozen = p.state("frozen", 1.1);
+    const Expression a = p.parameter("a", 0.8), b = p.parameter("b", 1.3);
+    const Expression exponent = p.parameter("exponent", 1.7), unused = p.parameter("unused", 5);
     p.rates = {y, -a * sin(x) - 0.1 * y + b * cos(phase), tanh(y) / (1 + x * x) - z * frozen, 0.5 * a * sqrt(b),
                p.graph->number(0)};
     p.outputs = {x + y - 2 * z + a * b,

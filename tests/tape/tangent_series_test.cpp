@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <vector>
 
 namespace graze {
 namespace {

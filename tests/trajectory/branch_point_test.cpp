@@ -15,45 +15,22 @@ namespace {
 Model between_walls(double stiffness, double width, double p, const char* loss = "x - width") {
     return model_from(fmt::format(R"toml(
 name = "walls"
-[parameters]
-k = {0:.17g}
-width = {1:.17g}
-p = {2:.17g}
-[states]
-x = {{ initial = "width/2" }}
-v = 1
-[modes.free]
-rates = {{ x = "v", v = 0 }}
-watch = ["right", "left"]
-[modes.right]
-rates = {{ x = "v", v = "-k*(x - width)^p" }}
-watch = ["off_right"]
-[modes.left]
-rates = {{ x = "v", v = "k*(-x)^p" }}
-watch = ["off_left"]
-[events]
-right = {{ function = "width - x", kind = "section" }}
-left = {{ function = "x", kind = "section" }}
-off_right = {{ function = "{3}", kind = "section" }}
-off_left = {{ function = "-x", kind = "section" }}
-[[transitions]]
-mode = "free"
-event = "right"
-next = "right"
-[[transitions]]
-mode = "free"
-event = "left"
-next = "left"
-[[transitions]]
-mode = "right"
-event = "off_right"
-next = "free"
-[[transitions]]
-mode = "left"
-event = "off_left"
-next = "free"
-[initial]
-mode = "free"
+parameters = {{ k = {0:.17g}, width = {1:.17g}, p = {2:.17g} }}
+states = {{ x = {{ initial = "width/2" }}, v = 1 }}
+modes.free = {{ rates = {{ x = "v", v = 0 }}, watch = ["right", "left"] }}
+modes.right = {{ rates = {{ x = "v", v = "-k*(x - width)^p" }}, watch = ["off_right"] }}
+modes.left = {{ rates = {{ x = "v", v = "k*(-x)^p" }}, watch = ["off_left"] }}
+initial.mode = "free"
+events.right = {{ function = "width - x", kind = "section" }}
+events.left = {{ function = "x", kind = "section" }}
+events.off_right = {{ function = "{3}", kind = "section" }}
+events.off_left = {{ function = "-x", kind = "section" }}
+transitions = [
+  {{ mode = "free", event = "right", next = "right" }},
+  {{ mode = "free", event = "left", next = "left" }},
+  {{ mode = "right", event = "off_right", next = "free" }},
+  {{ mode = "left", event = "off_left", next = "free" }},
+]
 )toml",
                                   stiffness, width, p, loss));
 }
@@ -108,10 +85,9 @@ TEST(BranchPoint, DerivativesPassHertzContacts) {
     const auto position = [&](double v) { return width - v * (time - 0.5 * width / v - contact_time(k, p, v)); };
     const Simulation simulation{System(between_walls(k, width, p))};
     Trajectory trajectory(simulation, simulation.model().parameter_values());
-    JetSet jets(simulation, LaneKind::single);
     trajectory.start(std::vector<double>{0.5 * width, 0.6}, 0, 0, time);
     trajectory.carry_derivatives(std::vector<std::string>{"v"});
-    run(trajectory, jets);
+    run(trajectory);
     EXPECT_NEAR(trajectory.state()[0], position(0.6), 1e-11);
     EXPECT_NEAR(trajectory.derivative(0, 0), (position(0.6 + 1e-5) - position(0.6 - 1e-5)) / 2e-5, 1e-8);
 }

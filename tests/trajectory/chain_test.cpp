@@ -6,11 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <numbers>
-#include <string>
-#include <vector>
-
 namespace graze {
 namespace {
 

@@ -83,23 +83,14 @@ parameters = { g = 1, b = 0.1, e = 0.5, height = 0 }
 states = { x = "height", v = 1, clock = 0 }
 modes.flight = { rates = { x = "v", v = "-(g - b*clock)", clock = 1 }, watch = ["floor"] }
 modes.rest = { rates = { x = 0, v = 0, clock = 1 }, watch = ["release"] }
-events.floor = { function = "x - height" }
-events.release = { function = "g - b*clock" }
-jumps.impact = { v = "-e*v" }
+initial.mode = "flight"
+events = { floor = "x - height", release = "g - b*clock" }
+jumps.impact.v = "-e*v"
 jumps.land = { x = "height", v = 0 }
-[[transitions]]
-mode = "flight"
-event = "floor"
-jump = "impact"
-next = "flight"
-chatter = { jump = "land", mode = "rest" }
-[[transitions]]
-mode = "rest"
-event = "release"
-jump = "land"
-next = "end"
-[initial]
-mode = "flight"
+transitions = [
+  { mode = "flight", event = "floor", jump = "impact", next = "flight", chatter = { jump = "land", mode = "rest" } },
+  { mode = "rest", event = "release", jump = "land", next = "end" },
+]
 )toml";
 
 } // namespace
@@ -228,9 +219,8 @@ TEST(Chatter, AccumulationsUnderFadingGravityAreCompletedOnlyIfReal) {
             continue;
         Watcher watcher;
         Trajectory trajectory(simulation, std::vector{1.0, b, e, height}, borrowed(watcher));
-        JetSet jets(simulation, LaneKind::single);
         trajectory.start(std::vector{height, 1.0, 0.0}, 0, 0, 3 / b);
-        graze::run(trajectory, jets);
+        run(trajectory);
         const std::string label =
             fmt::format("e={} b={} height={} tol={}", e, b, height, simulation.options().tolerance);
         // Whether the last of many impacts occurs may depend on the last digit.
@@ -266,13 +256,9 @@ name = "ball"
 parameters = { e = 0.7 }
 states = { x = 1, v = 0 }
 modes.flight = { rates = { x = "v", v = -2 }, watch = ["floor"] }
-events.floor = { function = "x" }
-jumps.impact = { v = "-e*v" }
-[[transitions]]
-mode = "flight"
-event = "floor"
-jump = "impact"
-next = "flight"
+events = { floor = "x" }
+jumps.impact.v = "-e*v"
+transitions = [{ mode = "flight", event = "floor", jump = "impact", next = "flight" }]
 )toml");
     for (const double tolerance : {1e-6, 1e-12}) {
         const Watched run(model, std::vector{1.0, 0.0}, 100, tolerance);
@@ -292,29 +278,16 @@ states = { x = 1, v = 0, slip = 0, path = 0 }
 modes.flight = { rates = { x = "v", v = -2, slip = 0, path = 0 }, watch = ["floor"] }
 modes.slipping = { rates = { x = "v", v = -2, slip = "-friction", path = "slip" }, watch = ["floor", "stop"] }
 modes.rest = { rates = { x = 0, v = 0, slip = 0, path = 0 } }
-events.floor = { function = "x" }
-events.stop = { function = "slip" }
+initial.mode = "flight"
+events = { floor = "x", stop = "slip" }
 jumps.impact = { v = "-e*v", slip = "slip - v" }
-jumps.stop = { slip = 0 }
+jumps.stop.slip = 0
 jumps.land = { x = 0, v = 0, slip = 0 }
-[[transitions]]
-mode = "flight"
-event = "floor"
-jump = "impact"
-next = "slipping"
-chatter = { jump = "land", mode = "rest" }
-[[transitions]]
-mode = "slipping"
-event = "floor"
-jump = "impact"
-next = "slipping"
-[[transitions]]
-mode = "slipping"
-event = "stop"
-jump = "stop"
-next = "flight"
-[initial]
-mode = "flight"
+transitions = [
+  { mode = "flight", event = "floor", jump = "impact", next = "slipping", chatter = { jump = "land", mode = "rest" } },
+  { mode = "slipping", event = "floor", jump = "impact", next = "slipping" },
+  { mode = "slipping", event = "stop", jump = "stop", next = "flight" },
+]
 )toml");
     for (const double tolerance : {1e-6, 1e-9, 1e-12, 1e-15}) {
         SCOPED_TRACE(tolerance);

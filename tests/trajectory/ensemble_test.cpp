@@ -2,8 +2,6 @@
 
 #include "graze/trajectory/ensemble.hpp"
 
-#include "graze/base/input_error.hpp"
-
 #include "closed_form.hpp"
 #include "simulate.hpp"
 
@@ -12,7 +10,6 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <stdexcept>
 #include <thread>
 
 using namespace graze;
@@ -158,9 +155,7 @@ TEST(Ensemble, ShippedModelsInLanesEqualSeparateRuns) {
     std::size_t contacts = 0;
     for (const CatalogueEntry& entry : catalogue()) {
         const Model model = load_model(entry.name);
-        SimulationOptions options = with_tolerance(1e-10);
-        options.minima = true;
-        const Simulation simulation(System(model), all_probes(model), {}, options);
+        const Simulation simulation(System(model), all_probes(model), {}, {.tolerance = 1e-10, .minima = true});
         for (const InstructionSet set : supported_sets())
             for (const int count : {1, 2, 3, 5, 8, 17, 40}) {
                 const std::vector<Task> tasks = draw_tasks(model, random, count);
@@ -193,9 +188,7 @@ transitions = [
 ]
 initial = { mode = "burst" }
 )toml");
-    SimulationOptions options;
-    options.step_limit = 200;
-    const Simulation simulation(System(model), {}, {}, options);
+    const Simulation simulation(System(model), {}, {}, {.step_limit = 200});
     Random random(22);
     std::vector<Task> tasks;
     for (int i = 0; i < 60; ++i) {
@@ -271,16 +264,6 @@ TEST(Ensemble, LeavesMotionsUnfinishedOnRequest) {
             EXPECT_FALSE(trajectory.finished());
         EXPECT_GT(trajectories.front().time(), 0);
     }
-}
-
-TEST(Ensemble, RefusesTrajectoriesOfOtherSimulations) {
-    const Simulation one{System(load_model("bouncing-ball"))}, other{System(load_model("mems-switch"))};
-    std::vector<Trajectory> trajectories;
-    trajectories.emplace_back(other, other.model().parameter_values());
-    EXPECT_THROW(Ensemble(one).run(trajectories), InputError);
-    JetSet jets(one, LaneKind::single), lanes(other, LaneKind::ensemble);
-    EXPECT_THROW(run(trajectories.front(), jets), InputError);
-    EXPECT_THROW(run(trajectories.front(), lanes), InputError);
 }
 
 TEST(Ensemble, ThreadsCanShareASimulation) {

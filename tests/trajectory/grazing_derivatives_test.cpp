@@ -6,8 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
-
 using namespace graze;
 using namespace graze::testing;
 
@@ -19,14 +17,9 @@ name = "parabola"
 parameters = { g = 2, e = 0.5, surface = 0, scale = 1 }
 states = { x = 1, v = -2 }
 modes.flight = { rates = { x = "v", v = "g" }, watch = ["contact"] }
-events.contact = { function = "scale*(x - surface)", kind = "barrier" }
-[jumps]
-impact = { v = "-e*v" }
-[[transitions]]
-mode = "flight"
-event = "contact"
-jump = "impact"
-next = "flight"
+events = { contact = { function = "scale*(x - surface)", kind = "barrier" } }
+jumps.impact.v = "-e*v"
+transitions = [{ mode = "flight", event = "contact", jump = "impact", next = "flight" }]
 )toml";
 
 /// @return whether derivatives are valid at the end

@@ -14,21 +14,11 @@ namespace {
 const char* const clock_text = R"(
 name = "clock"
 parameters = { rate = 1, turn = 1 }
-[states]
-hand = { initial = 0, period = "turn" }
-turns = 0
-[events.noon]
-function = "turn - hand"
-[jumps.count]
-turns = "turns + 1"
-[modes.running]
-rates = { hand = "rate", turns = "0" }
-watch = ["noon"]
-[[transitions]]
-mode = "running"
-event = "noon"
-jump = "count"
-next = "running"
+states = { hand = { initial = 0, period = "turn" }, turns = 0 }
+events = { noon = "turn - hand" }
+jumps.count.turns = "turns + 1"
+modes.running = { rates = { hand = "rate", turns = "0" }, watch = ["noon"] }
+transitions = [{ mode = "running", event = "noon", jump = "count", next = "running" }]
 )";
 
 } // namespace

@@ -32,9 +32,8 @@ std::vector<std::size_t> passages(const Model& model, const std::vector<Probe>& 
     Simulation simulation(System(model), probes, {}, options);
     Counter counter(probes.size());
     Trajectory trajectory(simulation, model.parameter_values(), borrowed(counter));
-    JetSet jets(simulation, LaneKind::single);
     trajectory.start(model.initial_state(), model.initial_mode, 0, end_time);
-    run(trajectory, jets);
+    run(trajectory);
     EXPECT_EQ(trajectory.outcome().ending, Ending::end_time) << trajectory.outcome().detail;
     return counter.count;
 }
@@ -43,37 +42,19 @@ std::vector<std::size_t> passages(const Model& model, const std::vector<Probe>& 
 Model rotor(double rate = 1, double other = 1) {
     Model model = model_from(R"(
 name = "rotor"
-[parameters]
-rate = 1
-other = 1
-target = 1
+parameters = { rate = 1, other = 1, target = 1 }
+modes.only = { rates = { x = "v", v = "-x", phase = "rate", second = "other" }, watch = [] }
+sections.zero = { state = "phase", value = 0 }
+sections.target = { state = "phase", value = "target" }
+sections.second = { state = "second", value = 1 }
+sections.up = { function = "x", direction = "rising" }
+sections.down = { function = "x", direction = "falling" }
+sections.both.function = "x"
 [states]
 x = { initial = 0 }
 v = { initial = 1 }
 phase = { initial = 0, period = "2*pi" }
 second = { initial = 0, period = 3 }
-[modes.only]
-rates = { x = "v", v = "-x", phase = "rate", second = "other" }
-watch = []
-[sections.zero]
-state = "phase"
-value = 0
-[sections.target]
-state = "phase"
-value = "target"
-[sections.second]
-state = "second"
-value = 1
-[sections.up]
-function = "x"
-direction = "rising"
-[sections.down]
-function = "x"
-direction = "falling"
-[sections.both]
-function = "x"
-[initial]
-mode = "only"
 )");
     model.set_parameter("rate", rate);
     model.set_parameter("other", other);
@@ -117,8 +98,7 @@ TEST(Probe, HasOnePassageInEachPeriod) {
 TEST(Probe, StepsThatEndOnASectionCountOnce) {
     const Model model = rotor();
     for (const int parts : {1, 2, 3, 4, 7, 8, 64}) {
-        SimulationOptions options;
-        options.largest_step = 2 * pi / parts;
+        const SimulationOptions options{.largest_step = 2 * pi / parts};
         const std::size_t periods = 3000;
         const auto count = passages(model, sections(model, {"zero", "target", "up", "down", "both"}),
                                     2 * pi * static_cast<double>(periods) + 3.5, options);
@@ -138,9 +118,8 @@ TEST(Probe, PhasesMayRunBackwards) {
     EXPECT_EQ(count[0], periods); // the run starts on it
     EXPECT_EQ(count[1], periods); // the first passage is after 2 pi - 1
     EXPECT_EQ(count[2], static_cast<std::size_t>(std::floor((2.5 * (2 * pi * periods + 3.5) - 2) / 3)) + 1);
-    SimulationOptions options;
-    options.largest_step = 2 * pi / 8;
-    const auto again = passages(model, sections(model, {"zero", "target"}), 2 * pi * 1000 + 3.5, options);
+    const auto again =
+        passages(model, sections(model, {"zero", "target"}), 2 * pi * 1000 + 3.5, {.largest_step = 2 * pi / 8});
     EXPECT_EQ(again[0], 1000u);
     EXPECT_EQ(again[1], 1000u);
 }
@@ -149,21 +128,10 @@ TEST(Probe, PhasesMayTurnBack) {
     // theta' = cos(t): theta oscillates in [-1, 1]; sections at 0 and at 0.5.
     Model model = model_from(R"(
 name = "sway"
-[states]
-s = 0
-c = 1
-theta = { initial = 0, period = 1.5 }
-[modes.only]
-rates = { s = "c", c = "-s", theta = "c" }
-watch = []
-[sections.zero]
-state = "theta"
-value = 0
-[sections.half]
-state = "theta"
-value = 0.5
-[initial]
-mode = "only"
+states = { s = 0, c = 1, theta = { initial = 0, period = 1.5 } }
+modes.only = { rates = { s = "c", c = "-s", theta = "c" }, watch = [] }
+sections.zero = { state = "theta", value = 0 }
+sections.half = { state = "theta", value = 0.5 }
 )");
     Experiment experiment(model, {}, sections(model, {"zero", "half"}));
     experiment.run(2 * pi * 100 + 1);
@@ -264,43 +232,20 @@ TEST(Probe, PhasesMayJumpOntoAndPastSections) {
     // At phase 1 a jump to 2 (past the section at 1.5, which is not counted), at phase 3 back to 0 (onto a section).
     const Model model = model_from(R"(
 name = "jumps"
-[states]
-theta = { initial = 0.5, period = 4 }
-[modes.low]
-rates = { theta = 1 }
-watch = ["at_one"]
-[modes.high]
-rates = { theta = 1 }
-watch = ["at_three"]
-[events.at_one]
-function = "1 - theta"
-[events.at_three]
-function = "3 - theta"
-[jumps.forward]
-theta = 2
-[jumps.back]
-theta = 0
-[[transitions]]
-mode = "low"
-event = "at_one"
-jump = "forward"
-next = "high"
-[[transitions]]
-mode = "high"
-event = "at_three"
-jump = "back"
-next = "low"
-[sections.zero]
-state = "theta"
-value = 0
-[sections.skipped]
-state = "theta"
-value = 1.5
-[sections.passed]
-state = "theta"
-value = 2.5
-[initial]
-mode = "low"
+states = { theta = { initial = 0.5, period = 4 } }
+modes.low = { rates = { theta = 1 }, watch = ["at_one"] }
+modes.high = { rates = { theta = 1 }, watch = ["at_three"] }
+initial.mode = "low"
+events = { at_one = "1 - theta", at_three = "3 - theta" }
+jumps.forward.theta = 2
+jumps.back.theta = 0
+transitions = [
+  { mode = "low", event = "at_one", jump = "forward", next = "high" },
+  { mode = "high", event = "at_three", jump = "back", next = "low" },
+]
+sections.zero = { state = "theta", value = 0 }
+sections.skipped = { state = "theta", value = 1.5 }
+sections.passed = { state = "theta", value = 2.5 }
 )");
     const auto count = passages(model, sections(model, {"zero", "skipped", "passed"}), 0.5 + 2 * 100 - 0.1);
     EXPECT_EQ(count, (std::vector<std::size_t>{0, 0, 100}));
@@ -417,14 +362,12 @@ TEST(CyclicStates, StayWithinTheirPeriodsForAMillionPeriods) {
     };
     for (const double rate : {1.0, -1.0}) {
         const Model model = rotor(rate, 0.37 * rate);
-        SimulationOptions options = with_tolerance(1e-14);
-        Simulation simulation(System(model), {}, {}, options);
+        Simulation simulation(System(model), {}, {}, with_tolerance(1e-14));
         Watch watch;
         Trajectory trajectory(simulation, model.parameter_values(), borrowed(watch));
-        JetSet jets(simulation, LaneKind::single);
         const double end = 2 * pi * 1e6 + 1;
         trajectory.start(model.initial_state(), 0, 0, end);
-        run(trajectory, jets);
+        run(trajectory);
         EXPECT_TRUE(watch.inside);
         const auto error = [](double phase, long double motion, double period) {
             const long double turns = (motion - static_cast<long double>(phase)) / static_cast<long double>(period);

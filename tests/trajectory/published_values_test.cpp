@@ -110,11 +110,7 @@ TEST(Microbeam, LeavesRestWithAnyNumberOfModesAndNodes) {
     for (const Quadrature rule : {Quadrature::simpson, Quadrature::gauss})
         for (int modes = 1; modes <= 5; ++modes)
             for (const int points : {4, 6, 20}) {
-                MicrobeamOptions options;
-                options.modes = modes;
-                options.quadrature = rule;
-                options.points = points;
-                Experiment experiment(microbeam(options));
+                Experiment experiment(microbeam({.modes = modes, .quadrature = rule, .points = points}));
                 const Outcome outcome = experiment.run(0.3);
                 EXPECT_EQ(outcome.ending, Ending::end_time)
                     << modes << " modes, " << points << " points: " << outcome.detail;
@@ -206,8 +202,7 @@ TEST(BallAndShaker, VelocityJumpsGrowAsTheSquareRootOfTheLast) {
 
 TEST(BallAndShaker, MotionOfFigure42aHasGrowingImpacts) {
     // Impacts grow, and the ball stays in front of the shaker.
-    SimulationOptions options = with_tolerance(1e-13);
-    Experiment experiment(load_model("ball-and-shaker"), options);
+    Experiment experiment(load_model("ball-and-shaker"), with_tolerance(1e-13));
     experiment.run(3);
     const Model& model = experiment.simulation.model();
     double most = 0;
@@ -296,9 +291,8 @@ TEST(ElectromagneticTestbed, GrazingVoltagesAreThePublishedOnes) {
 
 TEST(ElectromagneticTestbed, LeastGapOverStepsAgreesWithTheExtremum) {
     const Model full = shipped_with("electromagnetic-testbed", {{"V0", 4.5}});
-    SimulationOptions options = with_tolerance(1e-14);
-    options.minima = true;
-    Simulation simulation(System(full), {extremum(full, "q", Direction::falling)}, {}, options);
+    Simulation simulation(System(full), {extremum(full, "q", Direction::falling)}, {},
+                          {.tolerance = 1e-14, .minima = true});
     Recorder recorder;
     double least = 1;
     ArcMinima minima([&](const ArcMinimum& minimum) {
@@ -308,9 +302,8 @@ TEST(ElectromagneticTestbed, LeastGapOverStepsAgreesWithTheExtremum) {
     });
     Relay relay({borrowed(recorder), borrowed(minima)});
     Trajectory trajectory(simulation, full.parameter_values(), borrowed(relay));
-    JetSet jets(simulation, LaneKind::single);
     trajectory.start(full.initial_state(), 0, 0, 8);
-    run(trajectory, jets);
+    run(trajectory);
     minima.finish();
     double most = -1;
     for (const auto& record : recorder.passages())
@@ -528,11 +521,7 @@ constexpr double beam_period = 2 * pi / 28;
 constexpr double midspan_shape = 1.5881462620646052;
 
 MicrobeamOptions beam(double voltage, double stiffness, int modes = 1) {
-    MicrobeamOptions options;
-    options.voltage = voltage;
-    options.stop_stiffness = stiffness;
-    options.modes = modes;
-    return options;
+    return {.modes = modes, .stop_stiffness = stiffness, .voltage = voltage};
 }
 
 TEST(Microbeam, GrazingVoltageIsThePublishedOne) {

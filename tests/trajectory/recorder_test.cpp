@@ -13,10 +13,8 @@ namespace {
 
 /// Runs the MEMS switch of chapter 6 with an observer until snap-through.
 void run_switch(Observer& observer, bool minima = false) {
-    SimulationOptions options;
-    options.minima = minima;
     const Model model = load_model("mems-switch");
-    const Simulation simulation(System(model), {section_probe(model, "phase0")}, {}, options);
+    const Simulation simulation(System(model), {section_probe(model, "phase0")}, {}, {.minima = minima});
     Trajectory trajectory(simulation, model.parameter_values(), borrowed(observer));
     trajectory.start(model.initial_state(), model.initial_mode, 0, 100);
     JetSet jets(simulation, LaneKind::single);

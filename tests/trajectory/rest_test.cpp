@@ -28,40 +28,18 @@ Model ball(const std::string& gap, bool lands, bool sticks) {
         R"toml(
 name = "ball"
 parameters = {{ g = 9.81, e = 0.5, a = 0.01, omega = 40, scale = 1, h = 1 }}
-[states]
-x = 0.1
-v = 0
-theta = {{ initial = 0, period = "2*pi" }}
-[definitions]
-speed = "a*omega*cos(theta)"
-support = "g - a*omega^2*sin(theta)"
-[events]
-contact = "{}"
-release = "support"
-[modes.flight]
-rates = {{ x = "v", v = "-g", theta = "omega" }}
-watch = ["contact"]
-[modes.rest]
-rates = {{ x = "speed", v = "-a*omega^2*sin(theta)", theta = "omega" }}
-watch = ["release"]
-[jumps.impact]
-v = "-e*v + (1 + e)*speed"
-[jumps.land]
-x = "a*sin(theta)"
-v = "speed"
-[[transitions]]
-mode = "flight"
-event = "contact"
-jump = "impact"
-next = {}
-chatter = {{ jump = "land", mode = "rest" }}
-[[transitions]]
-mode = "rest"
-event = "release"
-jump = "{}"
-next = "flight"
-[initial]
-mode = "flight"
+states = {{ x = 0.1, v = 0, theta = {{ initial = 0, period = "2*pi" }} }}
+definitions = {{ speed = "a*omega*cos(theta)", support = "g - a*omega^2*sin(theta)" }}
+events = {{ contact = "{}", release = "support" }}
+modes.flight = {{ rates = {{ x = "v", v = "-g", theta = "omega" }}, watch = ["contact"] }}
+modes.rest = {{ rates = {{ x = "speed", v = "-a*omega^2*sin(theta)", theta = "omega" }}, watch = ["release"] }}
+initial.mode = "flight"
+jumps.impact.v = "-e*v + (1 + e)*speed"
+jumps.land = {{ x = "a*sin(theta)", v = "speed" }}
+transitions = [
+  {{ mode = "flight", event = "contact", jump = "impact", next = {}, chatter = {{ jump = "land", mode = "rest" }} }},
+  {{ mode = "rest", event = "release", jump = "{}", next = "flight" }},
+]
 )toml",
         gap,
         sticks ? R"([{ when = "v - speed > 0", mode = "flight" }, { when = "support > 0", mode = "rest" },
@@ -108,9 +86,7 @@ TEST(Rest, BallsAtRestOnATableNeverFallThroughIt) {
         Model model = ball(gap, lands, sticks);
         const auto state = draw_ball(random, model, draw_units(random));
         const double tolerance = random.log_uniform(1e-15, 1e-6);
-        SimulationOptions options = with_tolerance(tolerance);
-        options.step_limit = 100000;
-        Experiment experiment(model, options);
+        Experiment experiment(model, {.tolerance = tolerance, .step_limit = 100000});
         const Outcome outcome = experiment.run_from(state, 0, rounds(model, 40));
         EXPECT_EQ(outcome.ending, Ending::end_time)
             << gap << " lands " << lands << " tolerance " << tolerance << ": " << outcome.detail;

@@ -87,14 +87,12 @@ name = "ridge"
 parameters = { g = 9.81, e = 0.9 }
 states = { x = 0.5, v = 0 }
 events = { leftwards = "x", rightwards = "-x" }
-initial = { mode = "right" }
-[modes]
-right = { rates = { x = "v", v = "-g" }, watch = ["leftwards"] }
-left = { rates = { x = "v", v = "g" }, watch = ["rightwards"] }
-rest = { rates = { x = 0, v = 0 } }
-[jumps]
-lose = { v = "e*v" }
-stop = { x = 0, v = 0 }
+modes.right = { rates = { x = "v", v = "-g" }, watch = ["leftwards"] }
+modes.left = { rates = { x = "v", v = "g" }, watch = ["rightwards"] }
+modes.rest = { rates = { x = 0, v = 0 } }
+initial.mode = "right"
+jumps.lose.v = "e*v"
+jumps.stop = { x = 0, v = 0 }
 )";
     for (const auto& [mode, event, next] :
          {std::array{"right", "leftwards", "left"}, {"left", "rightwards", "right"}}) {

@@ -11,43 +11,19 @@ using namespace graze::testing;
 namespace {
 
 const char* const block = R"toml(
-[parameters]
-r = 0.35
-p = 1
-a = 1
-[states]
-q = 0.9
-w = 0
-[events]
-dn = "q"
-up = "-q"
-[modes.pl]
-rates = { q = "w", w = "p^2*(q - a)" }
-watch = ["dn"]
-[modes.mi]
-rates = { q = "w", w = "p^2*(q + a)" }
-watch = ["up"]
-[modes.rest]
-rates = { q = 0, w = 0 }
-[jumps.i]
-w = "r*w"
-[jumps.l]
-q = 0
-w = 0
-[[transitions]]
-mode = "pl"
-event = "dn"
-jump = "i"
-next = "mi"
-chatter = { jump = "l", mode = "rest" }
-[[transitions]]
-mode = "mi"
-event = "up"
-jump = "i"
-next = "pl"
-chatter = { jump = "l", mode = "rest" }
-[initial]
-mode = "pl"
+parameters = { r = 0.35, p = 1, a = 1 }
+states = { q = 0.9, w = 0 }
+events = { dn = "q", up = "-q" }
+modes.pl = { rates = { q = "w", w = "p^2*(q - a)" }, watch = ["dn"] }
+modes.mi = { rates = { q = "w", w = "p^2*(q + a)" }, watch = ["up"] }
+modes.rest = { rates = { q = 0, w = 0 } }
+initial.mode = "pl"
+jumps.i.w = "r*w"
+jumps.l = { q = 0, w = 0 }
+transitions = [
+  { mode = "pl", event = "dn", jump = "i", next = "mi", chatter = { jump = "l", mode = "rest" } },
+  { mode = "mi", event = "up", jump = "i", next = "pl", chatter = { jump = "l", mode = "rest" } },
+]
 )toml";
 
 /// Returns the time of rest: from the tilt a c, reached with the speed p a s, s^2 = 1 - (1 - c)^2, the block falls

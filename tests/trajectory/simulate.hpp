@@ -7,8 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -36,9 +34,13 @@ inline std::vector<double> parameters_with(Model model, const Settings& settings
 }
 
 inline SimulationOptions with_tolerance(double tolerance) {
-    SimulationOptions options;
-    options.tolerance = tolerance;
-    return options;
+    return {.tolerance = tolerance};
+}
+
+/// Runs a trajectory to its end, on jets of its own.
+inline void run(Trajectory& trajectory) {
+    JetSet jets(trajectory.simulation(), LaneKind::single);
+    graze::run(trajectory, jets);
 }
 
 /// One trajectory with all that it needs, recorded.

@@ -4,8 +4,6 @@
 #include "simulate.hpp"
 
 #include <functional>
-#include <map>
-#include <memory>
 
 // Motions in closed form for which steps chosen from the last coefficients are wrong: coefficients vanish, or the
 // motion is steep without warning. Each family draws its own cases.
@@ -29,18 +27,19 @@ struct Family {
     std::function<ClosedMotion(Random&)> draw;
 };
 
+/// The text of a model with y' = rate(s), s' = 1.
+inline std::string model_of_rate(const std::string& parameters, const std::string& rate) {
+    return fmt::format(R"toml(
+parameters = {{ {} }}
+states = {{ y = 0, s = 0 }}
+modes.m = {{ rates = {{ y = "{}", s = 1 }} }}
+)toml",
+                       parameters, rate);
+}
+
 /// y' = (n + 1) c s^n, s' = 1, also from y or s = 0.
 inline Family power_through_zero(int n) {
-    return {"power" + std::to_string(n),
-            fmt::format(R"toml(
-parameters = {{ c = 1 }}
-[states]
-y = 0
-s = 0
-[modes.m]
-rates = {{ y = "{}*c*s^{}", s = 1 }}
-)toml",
-                        n + 1, n),
+    return {"power" + std::to_string(n), model_of_rate("c = 1", fmt::format("{}*c*s^{}", n + 1, n)),
             [n](Random& random) {
                 ClosedMotion one;
                 const double c = random.log_uniform(1e-6, 1e6), a = random.chance(0.3) ? 0 : random.uniform(-2, 1);
@@ -60,16 +59,7 @@ rates = {{ y = "{}*c*s^{}", s = 1 }}
 /// y' = n q (q s)^(n-1) cos((q s)^n): y = sin((q s)^n).
 inline Family chirp(int n) {
     return {"chirp" + std::to_string(n),
-            fmt::format(R"toml(
-parameters = {{ q = 1 }}
-[states]
-y = 0
-s = 0
-[modes.m]
-rates = {{ y = "{0}*q*(q*s)^{1}*cos((q*s)^{0})", s = 1 }}
-)toml",
-                        n, n - 1),
-            [n](Random& random) {
+            model_of_rate("q = 1", fmt::format("{0}*q*(q*s)^{1}*cos((q*s)^{0})", n, n - 1)), [n](Random& random) {
                 ClosedMotion one;
                 const double q = random.log_uniform(1e-4, 1e4);
                 const double a = random.chance(0.5) ? 0 : random.uniform(0, 1) / q;
@@ -89,17 +79,7 @@ rates = {{ y = "{0}*q*(q*s)^{1}*cos((q*s)^{0})", s = 1 }}
 /// y' = f(k (s - c)) with the integral F(k (s - c))/k.
 inline Family steep(const std::string& name, const std::string& rate,
                     const std::function<long double(long double)>& integral, double steepest = 1e4) {
-    return {name,
-            fmt::format(R"toml(
-parameters = {{ k = 1, c = 0 }}
-[states]
-y = 0
-s = 0
-[modes.m]
-rates = {{ y = "{}", s = 1 }}
-)toml",
-                        rate),
-            [integral, steepest](Random& random) {
+    return {name, model_of_rate("k = 1, c = 0", rate), [integral, steepest](Random& random) {
                 ClosedMotion one;
                 const double k = random.log_uniform(1, steepest), c = random.uniform(-1, 1);
                 one.parameters = {k, c};

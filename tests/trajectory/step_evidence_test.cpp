@@ -30,12 +30,11 @@ void judge_states(Counts& counts, const Family& family, Random& random, int case
     for (int digits = 6; digits <= 15; ++digits) {
         const double tolerance = std::pow(10.0, -digits);
         const Simulation simulation(System(model), {}, {}, with_tolerance(tolerance));
-        JetSet jets(simulation, LaneKind::single);
         for (int i = 0; i < cases_each; ++i) {
             const ClosedMotion one = family.draw(random);
             Trajectory trajectory(simulation, one.parameters);
             trajectory.start(one.state, 0, 0, one.end);
-            run(trajectory, jets);
+            run(trajectory);
             ++counts.cases;
             const std::string label = fmt::format("{} tolerance 1e-{} {}", family.name, digits, one.label);
             if (trajectory.outcome().ending != Ending::end_time)
@@ -139,7 +138,6 @@ initial = {{ mode = "one" }}
     for (int digits = 6; digits <= 15; ++digits) {
         const double tolerance = std::pow(10.0, -digits);
         const Simulation simulation(System(model), {}, {}, with_tolerance(tolerance));
-        JetSet jets(simulation, LaneKind::single);
         for (int i = 0; i < cases_each; ++i) {
             std::vector<double> parameters;
             double start = 0, time = 0, slope = 0;
@@ -147,7 +145,7 @@ initial = {{ mode = "one" }}
             Recorder recorder;
             Trajectory trajectory(simulation, parameters, borrowed(recorder));
             trajectory.start(std::vector{start}, 0, 0, 1.5 * time);
-            run(trajectory, jets);
+            run(trajectory);
             ++counts.cases;
             const std::string label = fmt::format("{} tolerance 1e-{} k = {} c = {} a = {} from {}", family.name,
                                                   digits, parameters[0], parameters[1], parameters[2], start);
@@ -204,11 +202,10 @@ transitions = [{{ mode = "one", event = "due", jump = "reset", next = "one" }}]
         for (int i = 0; i < 40; ++i) {
             const double tolerance = random.log_uniform(1e-15, 1e-6);
             const Simulation simulation(System(model), {}, {}, with_tolerance(tolerance));
-            JetSet jets(simulation, LaneKind::single);
             Trajectory trajectory(simulation, std::vector{random.log_uniform(0.3, 30)});
             const double speed = random.log_uniform(0.1, 10);
             trajectory.start(std::vector{0.0, speed, 0.0}, 0, 0, 20);
-            run(trajectory, jets);
+            run(trajectory);
             ASSERT_EQ(trajectory.outcome().ending, Ending::end_time) << trajectory.outcome().detail;
             const double x = trajectory.state()[0], v = trajectory.state()[1];
             const double energy = v * v / 2 + std::pow(x, p + 1) / (p + 1), exact = speed * speed / 2;
@@ -233,10 +230,9 @@ TEST(StepEvidence, ChainsThatStartAtZeroAreAccurate) {
         for (const double tolerance : {1e-6, 1e-9, 1e-12, 1e-15})
             for (const double rate : {1e-9, 1.0, 1e9}) {
                 const Simulation simulation(System(model), {}, {}, with_tolerance(tolerance));
-                JetSet jets(simulation, LaneKind::single);
                 Trajectory trajectory(simulation, std::vector{rate});
                 trajectory.start(std::vector(static_cast<std::size_t>(n), 0.0), 0, 0, n / rate);
-                run(trajectory, jets);
+                run(trajectory);
                 ASSERT_EQ(trajectory.outcome().ending, Ending::end_time) << trajectory.outcome().detail;
                 long double term = std::exp(-static_cast<long double>(n)), sum = 0;
                 for (int k = 0; k < n; ++k, term *= static_cast<long double>(n) / k)
@@ -274,11 +270,10 @@ TEST(StepEvidence, DerivativesOfSteepMotionsAreAccurate) {
             const double k = chirp ? random.log_uniform(0.1, 1.5) : random.log_uniform(1, 1e3);
             const double c = chirp ? -1 : random.uniform(-1, 1), end = random.uniform(0.5, 2);
             const Simulation simulation(System(model), {}, {}, with_tolerance(tolerance));
-            JetSet jets(simulation, LaneKind::single);
             Trajectory trajectory(simulation, std::vector{k, c});
             trajectory.start(std::vector{0.0, -1.0}, 0, 0, end);
             trajectory.carry_tangents(std::vector{0.0, 0.0, 0.0, 1.0}, 1);
-            run(trajectory, jets);
+            run(trajectory);
             ASSERT_EQ(trajectory.outcome().ending, Ending::end_time) << trajectory.outcome().detail;
             const double exact = value(k * (-1 - c)) - value(k * (-1 + end - c));
             // Derivatives have a hundred times the tolerance of the states. They arise as a difference of slopes that

@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <numbers>
 
 using namespace graze;
@@ -28,8 +27,7 @@ public:
             seeds[i * columns_ + i] = 1;
         trajectory_.start(state, mode, 0, end_time);
         trajectory_.carry_tangents(seeds, columns_);
-        JetSet jets(simulation_, LaneKind::single);
-        graze::run(trajectory_, jets);
+        run(trajectory_);
     }
     /// Returns the derivative of a state with respect to an initial state, or (higher columns) a parameter.
     double operator()(std::size_t state, std::size_t column) const {
@@ -321,17 +319,13 @@ parameters = { g = 9.81, e = 0.6 }
 states = { x = 1, v = 0, rested = 0 }
 modes.flight = { rates = { x = "v", v = "-g", rested = 0 }, watch = ["floor"] }
 modes.rest = { rates = { x = 0, v = 0, rested = 1 } }
-events.floor = { function = "x" }
-jumps.impact = { v = "-e*v" }
+initial.mode = "flight"
+events = { floor = "x" }
+jumps.impact.v = "-e*v"
 jumps.land = { x = 0, v = 0 }
-[[transitions]]
-mode = "flight"
-event = "floor"
-jump = "impact"
-next = "flight"
-chatter = { jump = "land", mode = "rest" }
-[initial]
-mode = "flight"
+transitions = [
+  { mode = "flight", event = "floor", jump = "impact", next = "flight", chatter = { jump = "land", mode = "rest" } },
+]
 )toml");
     for (const double tolerance : {1e-8, 1e-14}) {
         const double g = 9.81, e = 0.6, h = 1, rest = std::sqrt(2 * h / g) * (1 + e) / (1 - e);

@@ -23,25 +23,12 @@ std::vector<double> times_of(const Experiment& experiment, ContactKind kind) {
 /// A forced oscillator with a wall, in units of length and time chosen by the model.
 Model oscillator_in_units(double length, double time) {
     return model_from(fmt::format(R"toml(
-[parameters]
-S = {:.17g}
-rate = {:.17g}
-[states]
-x = "-S"
-v = 0
-phase = {{ initial = 0, period = "2*pi" }}
-[modes.free]
-rates = {{ x = "v", v = "rate^2*(S*cos(phase) - x)", phase = "0.7*rate" }}
-watch = ["wall"]
-[events]
-wall = "0.3*S - x"
-[jumps.impact]
-v = "-0.8*v"
-[[transitions]]
-mode = "free"
-event = "wall"
-jump = "impact"
-next = "free"
+parameters = {{ S = {:.17g}, rate = {:.17g} }}
+states = {{ x = "-S", v = 0, phase = {{ initial = 0, period = "2*pi" }} }}
+modes.free = {{ rates = {{ x = "v", v = "rate^2*(S*cos(phase) - x)", phase = "0.7*rate" }}, watch = ["wall"] }}
+events = {{ wall = "0.3*S - x" }}
+jumps.impact.v = "-0.8*v"
+transitions = [{{ mode = "free", event = "wall", jump = "impact", next = "free" }}]
 )toml",
                                   length, 1 / time));
 }
@@ -72,17 +59,10 @@ TEST(UnseenModels, UnitsHaveNoEffect) {
 TEST(UnseenModels, NothingIsSeenBeyondTheZeroOfARoot) {
     // Torricelli's law: the vessel is empty at t = 2, but (1 - t/2)^2 rises again and would reach 5 at t = 6.47.
     Experiment experiment(model_from(R"toml(
-[states]
-level = 1
-[modes.draining]
-rates = { level = "-level^0.5" }
-watch = ["overflow"]
-[events]
-overflow = "5 - level"
-[[transitions]]
-mode = "draining"
-event = "overflow"
-next = "end"
+states = { level = 1 }
+modes.draining = { rates = { level = "-level^0.5" }, watch = ["overflow"] }
+events = { overflow = "5 - level" }
+transitions = [{ mode = "draining", event = "overflow", next = "end" }]
 )toml"));
     EXPECT_EQ(experiment.run(10).ending, Ending::undefined);
     EXPECT_NEAR(experiment.trajectory.outcome().time, 2, 1e-4);
@@ -96,34 +76,16 @@ next = "end"
 TEST(UnseenModels, CollisionsOfTwoMassesAndAWallCountTheDigitsOfPi) {
     for (const auto& [mass, collisions] : {std::pair{1.0, 3}, {1e2, 31}, {1e4, 314}, {1e6, 3141}}) {
         Experiment experiment(model_from(fmt::format(R"toml(
-[parameters]
-M = {}
-[states]
-x = 1
-y = 2
-u = 0
-w = -1
-[modes.free]
-rates = {{ x = "u", y = "w", u = 0, w = 0 }}
-watch = ["wall", "meet"]
-[events]
-wall = "x"
-meet = "y - x"
-[jumps.wall]
-u = "-u"
-[jumps.meet]
-u = "((1 - M)*u + 2*M*w)/(1 + M)"
-w = "((M - 1)*w + 2*u)/(1 + M)"
-[[transitions]]
-mode = "free"
-event = "wall"
-jump = "wall"
-next = "free"
-[[transitions]]
-mode = "free"
-event = "meet"
-jump = "meet"
-next = "free"
+parameters = {{ M = {} }}
+states = {{ x = 1, y = 2, u = 0, w = -1 }}
+modes.free = {{ rates = {{ x = "u", y = "w", u = 0, w = 0 }}, watch = ["wall", "meet"] }}
+events = {{ wall = "x", meet = "y - x" }}
+jumps.wall.u = "-u"
+jumps.meet = {{ u = "((1 - M)*u + 2*M*w)/(1 + M)", w = "((M - 1)*w + 2*u)/(1 + M)" }}
+transitions = [
+  {{ mode = "free", event = "wall", jump = "wall", next = "free" }},
+  {{ mode = "free", event = "meet", jump = "meet", next = "free" }},
+]
 )toml",
                                                      mass)));
         ASSERT_EQ(experiment.run(100).ending, Ending::end_time);
@@ -135,43 +97,19 @@ next = "free"
 
 TEST(UnseenModels, RockingBlockComesToRest) {
     Experiment experiment(model_from(R"toml(
-[parameters]
-alpha = 0.3
-r = 0.85
-[states]
-angle = 0
-rate = 0.4
-[modes.right]
-rates = { angle = "rate", rate = "4*(angle - alpha)" }
-watch = ["right"]
-[modes.left]
-rates = { angle = "rate", rate = "4*(angle + alpha)" }
-watch = ["left"]
-[modes.rest]
-rates = { angle = 0, rate = 0 }
-[events]
-right = "angle"
-left = "-angle"
-[jumps.impact]
-angle = 0
-rate = "r*rate"
-[jumps.settle]
-angle = 0
-rate = 0
-[[transitions]]
-mode = "right"
-event = "right"
-jump = "impact"
-next = "left"
-chatter = { jump = "settle", mode = "rest" }
-[[transitions]]
-mode = "left"
-event = "left"
-jump = "impact"
-next = "right"
-chatter = { jump = "settle", mode = "rest" }
-[initial]
-mode = "right"
+parameters = { alpha = 0.3, r = 0.85 }
+states = { angle = 0, rate = 0.4 }
+modes.right = { rates = { angle = "rate", rate = "4*(angle - alpha)" }, watch = ["right"] }
+modes.left = { rates = { angle = "rate", rate = "4*(angle + alpha)" }, watch = ["left"] }
+modes.rest = { rates = { angle = 0, rate = 0 } }
+initial.mode = "right"
+events = { right = "angle", left = "-angle" }
+jumps.impact = { angle = 0, rate = "r*rate" }
+jumps.settle = { angle = 0, rate = 0 }
+transitions = [
+  { mode = "right", event = "right", jump = "impact", next = "left", chatter = { jump = "settle", mode = "rest" } },
+  { mode = "left", event = "left", jump = "impact", next = "right", chatter = { jump = "settle", mode = "rest" } },
+]
 )toml"));
     ASSERT_EQ(experiment.run(30).ending, Ending::end_time);
     // From rate w the block returns after (2/p) atanh(w/(p alpha)), p = 2.
@@ -191,20 +129,13 @@ mode = "right"
 
 TEST(UnseenModels, APhaseThatRunsBackwardsPassesEachSection) {
     Model model = model_from(R"toml(
+modes.only = { rates = { a = -1, b = 0.7, s = "0.1 + cos(b)" }, watch = ["tick"] }
+events = { tick = { function = "sin(2*pi*a/3 - 1)", kind = "section" } }
+transitions = [{ mode = "only", event = "tick", next = "only" }]
 [states]
 a = { initial = 0.5, period = 3 }
 b = { initial = 0.5, period = "2*pi" }
 s = { initial = 0, drifting = true }
-[modes.only]
-rates = { a = -1, b = 0.7, s = "0.1 + cos(b)" }
-watch = ["tick"]
-[events.tick]
-function = "sin(2*pi*a/3 - 1)"
-kind = "section"
-[[transitions]]
-mode = "only"
-event = "tick"
-next = "only"
 )toml");
     Probe probe;
     probe.name = "one";

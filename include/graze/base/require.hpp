@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace graze {
 
@@ -30,6 +31,12 @@ inline void require_room(std::size_t given, std::size_t needed, std::string_view
 inline void require_index(std::size_t index, std::size_t size, std::string_view what) {
     if (index >= size)
         require_detail::refuse_index(index, size, what);
+}
+/// Returns an item of a list. @throws InputError as require_index
+template <class Item>
+const Item& item_at(const std::vector<Item>& items, std::size_t index, std::string_view what) {
+    require_index(index, items.size(), what);
+    return items[index];
 }
 /// @param what names the object in the message with its article, such as "a source". @throws InputError for a null
 /// pointer. @return the pointer

@@ -1,18 +1,35 @@
 #pragma once
 
 #include "graze/base/require.hpp"
-#include "graze/flow/linear_mode.hpp"
 #include "graze/model/model.hpp"
 #include "graze/symbolic/function.hpp"
 #include "graze/tape/tape.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace graze {
+
+/// The first variational equations of a mode, compiled with its tape: derivatives of rates and watched events with
+/// respect to states and parameters.
+struct LinearMode {
+    /// The mode's tape, equal bit for bit, with the coefficients of the equations as deferred expressions.
+    Tape tape;
+    TangentEquations equations;
+    /// Derivatives of the watched events' functions: rows are events in the order of the mode.
+    std::vector<TangentEntry> events;
+
+    /// Groups of deferred expressions: coefficients of states, derivatives of events, and coefficients of each
+    /// parameter.
+    static constexpr std::uint32_t by_states = 0, of_events = 1;
+    static constexpr std::uint32_t by_parameter(std::size_t parameter) {
+        return 2 + static_cast<std::uint32_t>(parameter);
+    }
+};
 
 /// A model, frozen and compiled: a tape for each mode, functions for jumps, conditions and derivatives. All
 /// computations share one system, from any number of threads; copies are handles to the same object. Parameters are
@@ -82,23 +99,23 @@ public:
     std::size_t states() const { return parts_->states; }
     std::size_t parameters() const { return parts_->parameters; }
     std::size_t observed() const { return observed_.size(); }
-    const CompiledMode& mode(std::size_t index) const { return at((*modes_), index, "mode"); }
+    const CompiledMode& mode(std::size_t index) const { return item_at(*modes_, index, "mode"); }
     /// Returns the first variational equations of a mode. They are compiled at the first call; thread-safe.
     const LinearMode& linear(std::size_t mode) const;
-    const CompiledJump& jump(std::size_t index) const { return at(parts_->jumps, index, "jump"); }
+    const CompiledJump& jump(std::size_t index) const { return item_at(parts_->jumps, index, "jump"); }
     const CompiledTransition& transition(std::size_t index) const {
-        return at(parts_->transitions, index, "transition");
+        return item_at(parts_->transitions, index, "transition");
     }
     /// Returns a symmetry's map of states.
-    const CompiledJump& symmetry(std::size_t index) const { return at(parts_->symmetries, index, "symmetry"); }
+    const CompiledJump& symmetry(std::size_t index) const { return item_at(parts_->symmetries, index, "symmetry"); }
     /// Returns an event's function: value, then derivatives with respect to states and parameters.
-    const Function& event(std::size_t index) const { return at(parts_->events, index, "event"); }
+    const Function& event(std::size_t index) const { return item_at(parts_->events, index, "event"); }
     /// Returns a section's function in the same form; for a phase section, the state less its value. With a symmetry,
     /// it is the function of the image of the state.
     const Function& section(std::size_t index, std::optional<std::size_t> symmetry = std::nullopt) const {
         if (symmetry)
             require_index(*symmetry, parts_->symmetries.size(), "symmetry");
-        return at(parts_->sections, index, "section")[symmetry ? 1 + *symmetry : 0];
+        return item_at(parts_->sections, index, "section")[symmetry ? 1 + *symmetry : 0];
     }
     /// Returns the periods of the cyclic states (0 for others), as a function of the parameters.
     const Function& periods() const { return parts_->periods; }
@@ -122,11 +139,6 @@ public:
 
 private:
     friend class SystemCompiler;
-    template <class Item>
-    static const Item& at(const std::vector<Item>& items, std::size_t index, const char* what) {
-        require_index(index, items.size(), what);
-        return items[index];
-    }
     System with_tapes(std::vector<CompiledMode> modes, std::span<const Expression> observed) const;
     struct Parts {
         Model model;

@@ -39,12 +39,16 @@ public:
     // @throws InputError for an index that is out of range
 
     /// Function of an event: one value.
-    const Function& event(std::size_t index) const;
+    const Function& event(std::size_t index) const { return item_at(parts_->events, index, "event"); }
     /// Function of a section, as System::section: one value.
-    const Function& section(std::size_t index, std::optional<std::size_t> symmetry = std::nullopt) const;
+    const Function& section(std::size_t index, std::optional<std::size_t> symmetry = std::nullopt) const {
+        if (symmetry)
+            require_index(*symmetry, parts_->symmetries.size(), "symmetry");
+        return item_at(parts_->sections, index, "section")[symmetry ? 1 + *symmetry : 0];
+    }
     /// Image of each state under a jump, and under a symmetry.
-    const Function& jump(std::size_t index) const;
-    const Function& symmetry(std::size_t index) const;
+    const Function& jump(std::size_t index) const { return item_at(parts_->jumps, index, "jump"); }
+    const Function& symmetry(std::size_t index) const { return item_at(parts_->symmetries, index, "symmetry"); }
     /// Compiles another function. @param expressions in the model's symbols, of any graph
     /// @throws InputError for a symbol that the model does not have
     Function function_of(std::span<const Expression> expressions) const;

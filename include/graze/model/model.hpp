@@ -6,6 +6,7 @@
 #include "graze/symbolic/function.hpp"
 #include "graze/symbolic/parser.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -99,6 +100,13 @@ struct Quantity {
     Expression value{}; ///< in terms of states, parameters and definitions
 };
 
+/// Returns the index of the item of this name, if there is one.
+template <typename Item>
+std::optional<std::size_t> find_named(const std::vector<Item>& items, std::string_view name) {
+    const auto found = std::ranges::find(items, name, &Item::name);
+    return found == items.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - items.begin()));
+}
+
 /// The parts of a model. All expressions belong to its graph.
 struct ModelItems {
     std::shared_ptr<Graph> graph;
@@ -155,13 +163,13 @@ struct Model : ModelItems {
     ParameterId independent_parameter(std::string_view item) const;
 
     /// Return the index of the named item.
-    std::optional<std::size_t> find_parameter(std::string_view item) const; ///< among `parameters`
-    std::optional<std::size_t> find_state(std::string_view item) const;
-    std::optional<std::size_t> find_mode(std::string_view item) const;
-    std::optional<std::size_t> find_event(std::string_view item) const;
-    std::optional<std::size_t> find_jump(std::string_view item) const;
-    std::optional<std::size_t> find_section(std::string_view item) const;
-    std::optional<std::size_t> find_quantity(std::string_view item) const;
+    std::optional<std::size_t> find_parameter(std::string_view item) const { return find_named(parameters, item); }
+    std::optional<std::size_t> find_state(std::string_view item) const { return find_named(states, item); }
+    std::optional<std::size_t> find_mode(std::string_view item) const { return find_named(modes, item); }
+    std::optional<std::size_t> find_event(std::string_view item) const { return find_named(events, item); }
+    std::optional<std::size_t> find_jump(std::string_view item) const { return find_named(jumps, item); }
+    std::optional<std::size_t> find_section(std::string_view item) const { return find_named(sections, item); }
+    std::optional<std::size_t> find_quantity(std::string_view item) const { return find_named(quantities, item); }
     /// Null when there is none; valid until transitions are added or removed.
     const Transition* find_transition(std::size_t mode, std::size_t event) const;
 

@@ -25,6 +25,7 @@ Expression parse_expression(Graph& graph, std::string_view text, const Scope& sc
 struct Condition {
     Expression function;
     bool strict = true;
+    bool operator==(const Condition&) const = default;
 };
 
 /// Parses conditions joined by `and`: each `a > b`, `a >= b`, `a < b` or `a <= b`. Errors as parse_expression.

@@ -159,7 +159,7 @@ private:
     void report_minima(double step);
     // The first contact in the step (contact_search.cpp)
     std::size_t find_contact(double& step, const StepPreview& preview, std::size_t lane);
-    void look_beyond(std::size_t& first, double step, double uncertain);
+    void find_simultaneous(std::size_t& first, double step, double uncertain);
     std::size_t passed_with_period(double step, const StepPreview& preview, std::size_t lane);
     bool find_fall(std::size_t watched, double length, Root& root);
     std::span<const double> shifted_series(std::size_t watched);
@@ -189,7 +189,7 @@ private:
     double drift(std::size_t event, double size) const;
     bool fell_before(std::size_t watched, double at_surface);
     void hold_surfaces(std::size_t watched, double s);
-    void weigh_terms(std::size_t watched);
+    void sum_term_sizes(std::size_t watched);
     std::size_t leading_coefficient(std::size_t watched, double step, double drift);
     // Accumulations of contacts (chatter.cpp)
     void remember_contact(std::size_t event, double rate);
@@ -247,7 +247,7 @@ private:
     double descent_start_ = 0;              ///< length from which steps have been shrinking
     bool floored_ = false;                  ///< steps have become so short that sizes have floors
     bool leap_ = false;                     ///< the step is far longer than the one before
-    std::size_t served_ = no_event;         ///< event of the contact at which the present arc began
+    std::size_t start_event_ = no_event;    ///< event of the contact at which the present arc began
     std::size_t branch_ahead_ = 0;          ///< state whose rate jumps where the arc must end; number of states if none
     std::size_t last_jump_ = 0;             ///< jump that led to the present arc, unless it is the first
     std::optional<Contact> pending_;        ///< contact to be reported when the next jet is known
