@@ -3,6 +3,7 @@
 #include "branch/longest_step.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
+#include "orbit/newton.hpp"
 
 #include <fmt/format.h>
 
@@ -59,7 +60,7 @@ void ContinuationOptions::validate() const {
     require(largest_step >= smallest_step && std::isfinite(largest_step),
             "the largest step is smaller than the smallest", "make it larger");
     require(first_step > 0 && std::isfinite(first_step), "the first step is not positive", "give a positive number");
-    require(accuracy >= 1e-15 && accuracy <= 1e-2, "the accuracy is out of range", "choose from 1e-15 to 1e-2");
+    require_accuracy(accuracy);
     require(largest_angle > 0 && largest_angle < 1.5, "the largest angle is out of range",
             "choose between 0 and 1.5 radians");
     require(iterations > 0, "no iterations are allowed", "allow at least one");
