@@ -29,14 +29,6 @@ constexpr double blind_share = 1e-3;
 /// Share of the period for which the motion is followed: contacts of a first guess may come late.
 constexpr double followed_share = 1.1;
 
-VectorXd vector_of(const std::vector<double>& values) {
-    return Eigen::Map<const VectorXd>(values.data(), index(values.size()));
-}
-
-std::vector<double> numbers_of(const VectorXd& values) {
-    return {values.begin(), values.end()};
-}
-
 } // namespace
 
 AccumulatingOrbit::AccumulatingOrbit(const System& system, const Orbit& like, std::size_t mode, std::size_t event,

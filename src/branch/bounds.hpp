@@ -13,8 +13,8 @@ namespace graze {
 /// Returns the tests of all bounds, always in the same order; positive inside, with round-off as their noise.
 std::vector<BranchTest> tests_of_bounds(const BranchSettings& settings, std::span<const double> parameters,
                                         std::span<const double> monitors);
-void test_bounds(const TestedPoint& point, std::vector<BranchTest>& tests);
-bool confirm_bound(BranchState& state, SpecialPoint& special, const BranchTest& test);
+PointRule::Test test_bounds;
+PointRule::Confirm confirm_bound;
 
 /// True when one of the tests is a bound that is exceeded by more than round-off.
 bool is_beyond_bounds(const std::vector<BranchTest>& tests);

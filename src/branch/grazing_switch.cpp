@@ -361,11 +361,10 @@ BranchStart with_one_contact_fewer(const System& system, const SpecialPoint& poi
     for (const int sign : {1, -1}) {
         const Simulation here(system, {}, {}, integration(settings.orbit.tolerance));
         OrbitProblem problem(here, solution.orbit, settings.parameter);
-        std::vector<double> row(problem.unknowns(), 0.0), tangent(problem.unknowns());
-        row[problem.parameter_place()] = sign;
-        if (!problem.evaluate(problem.unknowns_of(solution.orbit)) || !problem.solve(row, 1, true, tangent, nullptr))
+        const auto tangent = problem.tangent_at(solution.orbit, sign);
+        if (!tangent)
             fail("the branch has a fold there");
-        direction = problem.direction_of(tangent);
+        direction = *tangent;
         OrbitBranch branch(system, solution.orbit, trial);
         if (branch.start_along(direction, 0) && branch.step() && branch.point().solution.certificate.admissible)
             break;

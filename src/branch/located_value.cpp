@@ -105,7 +105,7 @@ public:
     LocatedSolution solve(std::span<const double> values) {
         require_size(values.size(), others_.size(), "values of parameters");
         require_finite(values, "values of parameters");
-        const Eigen::VectorXd target = Eigen::Map<const Eigen::VectorXd>(values.data(), index(values.size()));
+        const Eigen::VectorXd target = vector_of(values);
         LocatedSolution result;
         result.parts = 1;
         bool moved = false;

@@ -202,11 +202,6 @@ std::optional<Cubic> cubic_coefficient(const OrbitEquations& equations, const Or
 
 } // namespace
 
-std::optional<double> flip_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    SecondVariation variation(equations);
-    return flip_coefficient(equations, at, variation);
-}
-
 std::optional<double> flip_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at,
                                        SecondVariation& variation) {
     const auto cubic = cubic_coefficient(equations, at, -1, variation);
@@ -228,10 +223,6 @@ struct Fold {
     VectorXd right, left;
     double product = 0;
 };
-
-std::vector<double> list_of(const VectorXd& vector) {
-    return {vector.begin(), vector.end()};
-}
 
 } // namespace
 
@@ -260,8 +251,8 @@ std::optional<FoldForm> fold_form(const OrbitEquations& equations, const OrbitEv
                     .turns = turns,
                     .is_simple = is_simple,
                     .rate = rate,
-                    .critical = list_of(critical),
-                    .adjoint = list_of(adjoint)};
+                    .critical = numbers_of(critical),
+                    .adjoint = numbers_of(adjoint)};
 }
 
 /// Like the coefficient of a flip, but the second-order correction is solved in a bordered system, because the matrix
@@ -292,20 +283,25 @@ std::optional<double> cusp_coefficient(const OrbitEquations& equations, const Or
     return std::isfinite(result) ? std::optional(result) : std::nullopt;
 }
 
-std::optional<double> torus_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    SecondVariation variation(equations);
-    const auto form = torus_form(equations, at, variation);
-    return form ? std::optional(form->real()) : std::nullopt;
+namespace {
+
+/// Returns the coefficient D of the torus as a cubic coefficient.
+std::optional<Cubic> torus_cubic(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                 SecondVariation& variation) {
+    const VectorXd ones = VectorXd::Ones(index(equations.layout().start_of(at.pieces.size())));
+    const auto multiplier = pair_on_circle(CyclicMatrix(at.system, 1, ones, ones).multipliers());
+    auto cubic = multiplier ? cubic_coefficient(equations, at, *multiplier, variation) : std::nullopt;
+    if (cubic)
+        *cubic = {std::conj(*multiplier) * cubic->value / 2.0, cubic->error / 2, cubic->is_simple};
+    return cubic;
 }
+
+} // namespace
 
 std::optional<Complex> torus_form(const OrbitEquations& equations, const OrbitEvaluation& at,
                                   SecondVariation& variation) {
-    const VectorXd ones = VectorXd::Ones(index(equations.layout().start_of(at.pieces.size())));
-    const auto multiplier = pair_on_circle(CyclicMatrix(at.system, 1, ones, ones).multipliers());
-    if (!multiplier)
-        return std::nullopt;
-    const auto cubic = cubic_coefficient(equations, at, *multiplier, variation);
-    return cubic ? std::optional(std::conj(*multiplier) * cubic->value / 2.0) : std::nullopt;
+    const auto cubic = torus_cubic(equations, at, variation);
+    return cubic ? std::optional(cubic->value) : std::nullopt;
 }
 
 std::optional<Criticality> flip_criticality(const OrbitEquations& equations, const OrbitEvaluation& at) {
@@ -317,12 +313,8 @@ std::optional<Criticality> flip_criticality(const OrbitEquations& equations, con
 
 std::optional<Criticality> torus_criticality(const OrbitEquations& equations, const OrbitEvaluation& at) {
     SecondVariation variation(equations);
-    const VectorXd ones = VectorXd::Ones(index(equations.layout().start_of(at.pieces.size())));
-    const auto multiplier = pair_on_circle(CyclicMatrix(at.system, 1, ones, ones).multipliers());
-    const auto cubic = multiplier ? cubic_coefficient(equations, at, *multiplier, variation) : std::nullopt;
-    return cubic ? std::optional(Criticality{(std::conj(*multiplier) * cubic->value / 2.0).real(), cubic->error / 2,
-                                             cubic->is_simple})
-                 : std::nullopt;
+    const auto cubic = torus_cubic(equations, at, variation);
+    return cubic ? std::optional(Criticality{cubic->value.real(), cubic->error, cubic->is_simple}) : std::nullopt;
 }
 
 std::optional<Complex> pair_on_circle(const std::vector<Complex>& multipliers) {

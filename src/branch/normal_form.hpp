@@ -21,18 +21,14 @@ namespace graze {
 /// Returns the coefficient c of the flip, w -> -w + c w^3: for c > 0 (supercritical) the bifurcating orbit of twice the
 /// period is stable if the original one has no other unstable direction. For a half orbit, the bifurcating orbit is
 /// asymmetric.
-/// @param at evaluation at an orbit with a multiplier -1. @return empty where it cannot be computed
-std::optional<double> flip_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at);
-/// The same with compiled second derivatives of these equations; compiling takes much longer than evaluating.
+/// @param at evaluation at an orbit with a multiplier -1. @param variation compiled second derivatives of these
+/// equations; compiling takes much longer than evaluating. @return empty where it cannot be computed
 std::optional<double> flip_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at,
                                        SecondVariation& variation);
 
-/// Returns the coefficient d of the torus, |w| -> |w| (1 + d |w|^2): for d < 0 (supercritical) the torus is stable,
-/// likewise.
+/// Returns the coefficient D of the torus, w -> mu w (1 + D |w|^2). For a negative real part (supercritical) the torus
+/// is stable, likewise; the imaginary part is the change of the rotation angle.
 /// @param at evaluation at an orbit with two multipliers on the unit circle
-std::optional<double> torus_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at);
-/// Returns D of w -> mu w (1 + D |w|^2), with compiled second derivatives: its real part is d, its imaginary part the
-/// change of the rotation angle.
 std::optional<std::complex<double>> torus_form(const OrbitEquations& equations, const OrbitEvaluation& at,
                                                SecondVariation& variation);
 

@@ -337,12 +337,12 @@ private:
                 move[i] *= std::pow(10, 0.5 * half_decades) * distance / length;
                 there[i] += move[i];
             }
-            problem.equations().set_scales(OrbitProblem::vector_of(there));
+            problem.equations().set_scales(vector_of(there));
             if (search_other_branch(u, move, length_of(move), was_simpler) == Found::other_branch &&
                 has_suitable_distance(u, sized) && begin(true))
                 return true;
         }
-        problem.equations().set_scales(OrbitProblem::vector_of(u));
+        problem.equations().set_scales(vector_of(u));
         begin(false);
         detail = "no orbit on another branch was found at any distance from the original one";
         return false;

@@ -47,21 +47,12 @@ OrbitProblem::OrbitProblem(const Simulation& simulation, const Orbit& orbit, con
     : OrbitProblem(std::make_unique<Shooting>(simulation, orbit, both(settings.parameter, settings.free),
                                               std::vector{range_of(settings)})) {}
 
-std::vector<double> OrbitProblem::row_of(std::span<const double> direction) const {
-    std::vector<double> row(direction.begin(), direction.end());
-    for (std::size_t i = 0; i < row.size(); ++i)
-        row[i] *= weights_[i] / (scales()[i] * scales()[i]);
-    return row;
-}
-
-std::vector<double> OrbitProblem::unknowns_of(const Orbit& orbit) {
-    const Eigen::VectorXd unknowns = equations_->unknowns_of(orbit);
-    return {unknowns.begin(), unknowns.end()};
-}
-
-std::vector<double> OrbitProblem::unknowns_of(const OrbitDirection& direction) const {
-    const Eigen::VectorXd unknowns = equations_->unknowns_of(direction, at_);
-    return {unknowns.begin(), unknowns.end()};
+std::optional<OrbitDirection> OrbitProblem::tangent_at(const Orbit& orbit, double rate) {
+    std::vector<double> row(unknowns(), 0.0), tangent(unknowns());
+    row[parameter_place()] = 1;
+    if (!evaluate(unknowns_of(orbit)) || !solve(row, rate, true, tangent, nullptr))
+        return std::nullopt;
+    return direction_of(tangent);
 }
 
 bool OrbitProblem::evaluate(std::span<const double> u) {
@@ -116,7 +107,7 @@ bool OrbitProblem::solve(std::span<const double> row, double right, bool homogen
         *determinant = closed.system.determinant();
     if (!equations_->solve(at_, closed, values, homogeneous, result))
         return false;
-    Eigen::Map<Eigen::VectorXd>(step.data(), result.size()) = result;
+    entries_of(step) = result;
     return true;
 }
 
@@ -125,7 +116,7 @@ bool OrbitProblem::chord(std::span<const double> u, std::span<const double> row,
     if (at_.unknowns.size() == 0 ||
         !equations_->chord(at_, closed_by(row), vector_of(u), Eigen::VectorXd::Zero(1), result))
         return false;
-    Eigen::Map<Eigen::VectorXd>(step.data(), result.size()) = result;
+    entries_of(step) = result;
     return true;
 }
 

@@ -34,7 +34,7 @@ std::vector<BranchStart> along_null_vector(const System& system, Orbit orbit, co
         fail();
     Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(static_cast<Eigen::Index>(problem.unknowns()));
     if (!along.is_empty())
-        row = OrbitProblem::vector_of(problem.row_of(problem.unknowns_of(along))).transpose();
+        row = vector_of(problem.row_of(problem.unknowns_of(along))).transpose();
     else
         row[static_cast<Eigen::Index>(problem.parameter_place())] = 1;
     Eigen::VectorXd vector;

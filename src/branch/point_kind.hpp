@@ -62,20 +62,23 @@ inline bool is_kept(const TestedPoint& point, PointType type, std::size_t segmen
 
 /// A kind of special points with all its functions: an entry of the table.
 struct PointRule {
+    // Types of functions.
+    using Test = void(const TestedPoint& point, std::vector<BranchTest>& tests);
+    using Confirm = bool(BranchState& state, SpecialPoint& special, const BranchTest& test);
+    using Rank = int(const SpecialPoint& point);
+    using Condition = std::unique_ptr<OrbitCondition>(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                                      const SpecialPoint& point);
+    using Leave = std::vector<BranchStart>(const System& system, const SpecialPoint& point,
+                                           const BranchSettings& settings);
+
     PointKind kind;
-    /// Adds its test functions, always the same number for one signature. Null: not detected.
-    void (*test)(const TestedPoint& point, std::vector<BranchTest>& tests) = nullptr;
-    /// Confirms a located zero of the test and sets `detail`. Null: confirmed if located.
-    bool (*confirm)(BranchState& state, SpecialPoint& special, const BranchTest& test) = nullptr;
-    /// Rank among several points at the same place: the lowest is kept. Null: it excludes no other.
-    int (*rank)(const SpecialPoint& point) = nullptr;
-    /// Returns the condition that holds the point along a curve. Null: there is none, as for branch points, which
-    /// disappear under perturbation. Returns null if not available for this point.
-    std::unique_ptr<OrbitCondition> (*condition)(const OrbitEquations& equations, const OrbitEvaluation& at,
-                                                 const SpecialPoint& point) = nullptr;
-    /// Returns the branches that leave the point. Null: none.
-    std::vector<BranchStart> (*leave)(const System& system, const SpecialPoint& point,
-                                      const BranchSettings& settings) = nullptr;
+    Test* test = nullptr;       ///< adds its test functions, always the same number for one signature; null: none
+    Confirm* confirm = nullptr; ///< confirms a located zero of the test and sets `detail`; null: confirmed if located
+    Rank* rank = nullptr;       ///< rank among points at the same place: the lowest is kept; null: it excludes no other
+    /// Returns the condition that holds the point along a curve; null where it is not available. Null: there is none,
+    /// as for branch points, which disappear under perturbation.
+    Condition* condition = nullptr;
+    Leave* leave = nullptr; ///< returns the branches that leave the point; null: none
 };
 
 /// Returns all rules, in the order of their types: a new kind of special points is one more entry.

@@ -54,12 +54,7 @@ std::vector<SpecialPoint> PointLocator::locate_all(const BranchPoint& before, co
             special.parameter = special.solution.orbit.parameters[state_->settings().parameter.place()];
         }
     }
-    merge(found, length);
-    drop_spurious_crossings(*state_, found, length);
-    drop_multipliers_of_resonances(found, length);
-    drop_parts_of_sensitivity(found, length);
-    drop_folds_at_return(*state_, found, length);
-    drop_folds_at_branch_points(found, length);
+    drop_consequences(*state_, found, length);
     state_->problem().evaluate(state_->continuation().point().u);
     return found;
 }

@@ -88,13 +88,11 @@ namespace {
 std::optional<Eigen::VectorXd> along_branch(const Simulation& simulation, const Orbit& orbit,
                                             const BranchSettings& settings, const OrbitProblem& with_all) {
     OrbitProblem problem(simulation, orbit, settings.parameter);
-    std::vector<double> row(problem.unknowns(), 0.0), onward(problem.unknowns());
-    row[problem.parameter_place()] = 1;
-    if (!problem.evaluate(problem.unknowns_of(orbit)) || !problem.solve(row, 1, true, onward, nullptr))
+    const auto tangent = problem.tangent_at(orbit, 1);
+    if (!tangent)
         return std::nullopt;
-    const std::vector<double> all = with_all.unknowns_of(problem.direction_of(onward));
-    const Eigen::VectorXd result = OrbitProblem::vector_of(all);
-    return result / result.cwiseQuotient(OrbitProblem::vector_of(with_all.scales())).norm();
+    const Eigen::VectorXd result = vector_of(with_all.unknowns_of(*tangent));
+    return result / result.cwiseQuotient(vector_of(with_all.scales())).norm();
 }
 
 } // namespace
@@ -108,7 +106,7 @@ std::optional<Orbit> reordered_beyond(const System& system, const SpecialPoint& 
     if (point.tangent.is_empty() || !problem.evaluate(u))
         return std::nullopt;
     const std::vector<double> tangent = problem.unknowns_of(point.tangent);
-    Eigen::VectorXd there = OrbitProblem::vector_of(u) + distance * OrbitProblem::vector_of(tangent);
+    Eigen::VectorXd there = vector_of(u) + distance * vector_of(tangent);
     if (aside != 0) {
         const auto off = along_branch(simulation, orbit, settings, problem);
         if (!off)
@@ -156,12 +154,10 @@ std::optional<BranchStart> start_from(const Simulation& simulation, const Orbit&
     if (!orbit)
         return std::nullopt;
     OrbitProblem problem(simulation, *orbit, settings.parameter);
-    std::vector<double> row(problem.unknowns(), 0.0), onward(problem.unknowns());
-    row[problem.parameter_place()] = 1;
-    const bool falls = orbit->parameters[place] < parameter_there;
-    if (!problem.evaluate(problem.unknowns_of(*orbit)) || !problem.solve(row, falls ? -1 : 1, true, onward, nullptr))
+    const auto onward = problem.tangent_at(*orbit, orbit->parameters[place] < parameter_there ? -1 : 1);
+    if (!onward)
         return std::nullopt;
-    return BranchStart{*orbit, problem.direction_of(onward), 0, "with events in another order"};
+    return BranchStart{*orbit, *onward, 0, "with events in another order"};
 }
 
 } // namespace
@@ -182,8 +178,7 @@ BranchStart with_events_reordered(const System& system, const SpecialPoint& poin
         for (const PeriodsTaken& periods : all_choices)
             for (const double distance : distances)
                 for (const double side : {1.0, -1.0}) {
-                    const Eigen::VectorXd there =
-                        OrbitProblem::vector_of(u) + side * distance * OrbitProblem::vector_of(tangent);
+                    const Eigen::VectorXd there = vector_of(u) + side * distance * vector_of(tangent);
                     const Orbit beyond = problem.equations().orbit_of(there);
                     std::string reason;
                     const auto candidate = followed_motion(simulation, beyond, periods, reason);
