@@ -20,6 +20,8 @@ PointRule::Confirm confirm_bound;
 bool is_beyond_bounds(const std::vector<BranchTest>& tests);
 /// Returns a description of the first bound that a point exceeds; empty if it exceeds none.
 std::string beyond_in_words(const BranchState& state, const BranchPoint& point);
+/// True when the first point of a branch lies on a bound of a parameter and the branch leads across it.
+bool leads_beyond_bounds(BranchState& state);
 /// Clamps parameters to their bounds, which round-off may have exceeded.
 void put_on_bounds(const BranchSettings& settings, Orbit& orbit);
 

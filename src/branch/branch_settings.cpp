@@ -48,7 +48,7 @@ void BranchSettings::validate(const Model& model) const {
         throw InputError(fmt::format("points of type {} ({}) cannot be followed as a curve", short_name(kept->type),
                                      name_of(kept->type)),
                          "choose another point, or hold a monitor that says what it is");
-    if (kept_too && (*kept_too != PointType::sensitivity || !kept || kept->type != PointType::grazing || kept->at_end))
+    if (kept_too && (*kept_too != PointType::sensitivity || !keeps_touch(*this)))
         throw InputError(fmt::format("the condition of a point of type {} cannot be held besides that of another",
                                      short_name(*kept_too)),
                          "hold a vanishing sensitivity (VS) besides a touch within an arc (GR)");

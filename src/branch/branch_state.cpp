@@ -183,6 +183,15 @@ LastStep BranchState::last_step() const {
     return {from, arclength(continuation_->point().arclength) - from};
 }
 
+double BranchState::distance_from(std::span<const double> u) const {
+    return (vector_of(u) - vector_of(continuation_->point().u)).cwiseQuotient(vector_of(problem_->scales())).norm();
+}
+
+std::vector<double> BranchState::rates_at_sections() {
+    problem_->evaluate(continuation_->point().u);
+    return passing_rates(problem_->equations(), problem_->evaluation());
+}
+
 std::vector<double> BranchState::rates_at(const Orbit& orbit, std::size_t segment) const {
     std::vector<double> inputs = orbit.starts[segment];
     inputs.insert(inputs.end(), orbit.parameters.begin(), orbit.parameters.end());
@@ -193,12 +202,12 @@ bool BranchState::is_outside(double parameter) const {
     return (settings_.least && parameter < *settings_.least) || (settings_.greatest && parameter > *settings_.greatest);
 }
 
-bool BranchState::describe(const ContinuationPoint& at, BranchPoint& result, std::vector<BranchTest>& tests) {
+std::optional<DescribedPoint> BranchState::describe(const ContinuationPoint& at) {
     OrbitEquations& equations = problem_->equations();
     if (!problem_->evaluate(at.u))
-        return false;
+        return std::nullopt;
     const OrbitEvaluation& evaluation = problem_->evaluation();
-    result.solution = {};
+    BranchPoint result;
     result.solution.outcome = OrbitOutcome::converged;
     result.solution.iterations = at.iterations;
     result.solution.orbit = problem_->orbit_of(at.u);
@@ -214,9 +223,14 @@ bool BranchState::describe(const ContinuationPoint& at, BranchPoint& result, std
     std::vector<Degeneracy> degeneracies;
     if (settings_.kept && !keeps_branch_point())
         degeneracies = held_.back()->degeneracies(equations, evaluation);
-    tests = branch_tests(
+    std::vector<BranchTest> tests = branch_tests(
         {equations, evaluation, result.solution, at.tangent, at.determinant, result.monitors, settings_, degeneracies});
-    return true;
+    return DescribedPoint{std::move(result), std::move(tests)};
+}
+
+std::optional<DescribedPoint> BranchState::describe_between(double fraction) {
+    ContinuationPoint at;
+    return continuation_->between(fraction, at) ? describe(at) : std::nullopt;
 }
 
 std::optional<double> BranchState::error_of(const Orbit& orbit, const OrbitDirection& tangent) {

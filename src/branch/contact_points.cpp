@@ -285,9 +285,9 @@ std::vector<BranchStart> leave_order(const System& system, const SpecialPoint& p
 void test_sensitivity(const TestedPoint& point, std::vector<BranchTest>& tests) {
     // Share of the period: smaller values are round-off, as where impacts do not affect the next pass.
     constexpr double least = 1e-9;
-    const auto& kept = point.settings.kept;
-    if (!kept || kept->type != PointType::grazing || kept->at_end)
+    if (!keeps_touch(point.settings))
         return;
+    const auto& kept = point.settings.kept;
     double next = not_a_number, same = not_a_number, alternating = not_a_number, size = 1;
     if (!point.settings.kept_too) {
         const CycleMap map = cycle_map_of(point.equations, point.at, {kept->segment, kept->event, kept->time, false},

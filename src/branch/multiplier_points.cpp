@@ -67,30 +67,24 @@ bool multipliers_agree(BranchState& state, const SpecialPoint& special, const Di
     // Scaled arclength over which the change of multipliers is measured; accepted distance in units of this change;
     // distance that is always rejected.
     constexpr double beside = 1e-10, times = 50, far = 2;
-    Continuation& continuation = state.continuation();
     const LastStep step = state.last_step();
-    ContinuationPoint at;
-    BranchPoint there;
-    std::vector<BranchTest> tests;
-    const auto describe = [&](double fraction) {
-        return continuation.between(fraction, at) && state.describe(at, there, tests);
-    };
     if (multipliers_followed(special.solution).empty()) {
         // Multipliers are undefined all along a curve of contacts of zero speed, or only here, where another contact
         // has zero speed.
         constexpr double aside = 1e-4, near = 0.1; // fraction of the step; bound of the change of multipliers over it
-        if (!state.settings().kept || !describe(step.fraction(special.arclength) - aside))
-            return false;
-        return multipliers_followed(there.solution).empty() || distance(there.solution) < near;
+        const auto there =
+            state.settings().kept ? state.describe_between(step.fraction(special.arclength) - aside) : std::nullopt;
+        return there && (multipliers_followed(there->point.solution).empty() || distance(there->point.solution) < near);
     }
     const double here = distance(special.solution);
     if (here <= close || !(here < far))
         return here <= close;
     double change = 0;
     for (const double aside : {-beside, beside}) {
-        if (!describe(step.fraction(special.arclength + aside)))
+        const auto there = state.describe_between(step.fraction(special.arclength + aside));
+        if (!there)
             return false;
-        change = std::max(change, std::abs(distance(there.solution) - here));
+        change = std::max(change, std::abs(distance(there->point.solution) - here));
     }
     return here <= times * change;
 }

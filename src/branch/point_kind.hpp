@@ -21,6 +21,11 @@ inline bool is_grazing(PointType type) {
     return type == PointType::grazing || type == PointType::double_grazing;
 }
 
+/// True when the branch is a curve of touches inside arcs.
+inline bool keeps_touch(const BranchSettings& settings) {
+    return settings.kept && settings.kept->type == PointType::grazing && !settings.kept->at_end;
+}
+
 /// A test function along a branch: a change of its sign indicates a special point.
 struct BranchTest {
     PointType type = PointType::end;

@@ -12,6 +12,9 @@ namespace graze {
 /// exclude others.
 int rank(const SpecialPoint& point);
 
+/// Largest scaled difference, due to round-off, between a solution and its repetition or image.
+inline constexpr double same_orbit = 1e-6;
+
 /// True when an orbit is one of half the period traversed twice, or its own image under a symmetry.
 /// @param same scaled tolerance of differences
 bool is_degenerate(BranchState& state, const Orbit& orbit, double same);

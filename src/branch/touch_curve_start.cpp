@@ -1,4 +1,4 @@
-#include "branch/curve_begin.hpp"
+#include "branch/touch_curve_start.hpp"
 
 #include "branch/point_kind.hpp"
 #include "orbit/newton.hpp"
@@ -156,8 +156,8 @@ bool needs_segments(const BranchSettings& settings) {
 
 } // namespace
 
-CurveBegin begun_for_curve(const System& system, const Orbit& orbit, const BranchSettings& settings) {
-    CurveBegin result{orbit, settings};
+CurveStart start_of_curve(const System& system, const Orbit& orbit, const BranchSettings& settings) {
+    CurveStart result{orbit, settings};
     if (!settings.kept || settings.kept->type != PointType::grazing || settings.kept->segment >= orbit.segments() ||
         orbit.durations.size() != orbit.segments() || needs_segments(settings))
         return result;
