@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 namespace graze {
 
@@ -124,31 +123,22 @@ void BranchState::update_kept_time(const OrbitSolution& solution) {
     if (!held || held->kind != HeldLimit::Kind::touch)
         return;
     SpecialPoint& kept = *settings_.kept;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const OrbitMinimum& minimum : solution.certificate.minima)
-        if (minimum.segment == kept.segment && minimum.event == kept.event && std::abs(minimum.value) < nearest) {
-            nearest = std::abs(minimum.value);
-            kept.time = minimum.time;
-        }
+    if (const auto touch = touch_in(solution.certificate, kept.segment, kept.event))
+        kept.time = touch->time;
 }
 
 /// Finds the kept touch in an orbit of another signature that nearly touches.
 bool BranchState::find_touch(const Orbit& orbit) {
-    constexpr double near = 1e-2; // share of the function's size along the arc
     OrbitProblem problem(simulation_, orbit, settings_);
     if (!problem.evaluate(problem.unknowns_of(orbit)))
         return false;
     SpecialPoint& kept = *settings_.kept;
-    double nearest = near;
-    bool found = false;
-    for (const OrbitMinimum& minimum : certify(problem.equations(), problem.evaluation()).minima)
-        if (minimum.event == kept.event && std::abs(minimum.value) < nearest * minimum.size) {
-            nearest = std::abs(minimum.value) / minimum.size;
-            kept.segment = minimum.segment;
-            kept.time = minimum.time;
-            found = true;
-        }
-    return found;
+    const auto touch = nearest_touch(certify(problem.equations(), problem.evaluation()), kept.event);
+    if (touch) {
+        kept.segment = touch->segment;
+        kept.time = touch->time;
+    }
+    return touch.has_value();
 }
 
 bool BranchState::keep_image_of_touch(const Orbit& orbit) {

@@ -232,6 +232,26 @@ std::optional<HeldLimit> held_limit_of(const SpecialPoint& point) {
     }
 }
 
+std::optional<OrbitMinimum> touch_in(const Certificate& certificate, std::size_t segment, std::size_t event) {
+    std::optional<OrbitMinimum> nearest;
+    for (const OrbitMinimum& one : certificate.minima)
+        if (one.segment == segment && one.event == event &&
+            (!nearest || std::abs(one.value) < std::abs(nearest->value)))
+            nearest = one;
+    return nearest;
+}
+
+std::optional<OrbitMinimum> nearest_touch(const Certificate& certificate, std::size_t event) {
+    double distance = 1e-2;
+    std::optional<OrbitMinimum> nearest;
+    for (const OrbitMinimum& one : certificate.minima)
+        if (one.event == event && std::abs(one.value) < distance * one.size) {
+            distance = std::abs(one.value) / one.size;
+            nearest = one;
+        }
+    return nearest;
+}
+
 std::vector<BranchTest> branch_tests(const TestedPoint& point) {
     std::vector<BranchTest> tests;
     for (const PointRule& rule : table)

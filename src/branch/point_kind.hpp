@@ -21,6 +21,12 @@ inline bool is_grazing(PointType type) {
     return type == PointType::grazing || type == PointType::double_grazing;
 }
 
+/// Returns the minimum of an event function in a segment that is nearest to zero; empty if it has none.
+std::optional<OrbitMinimum> touch_in(const Certificate& certificate, std::size_t segment, std::size_t event);
+/// Returns the minimum of an event function that is nearest to zero, in units of the function's size along its arc;
+/// empty if none is nearer than a hundredth.
+std::optional<OrbitMinimum> nearest_touch(const Certificate& certificate, std::size_t event);
+
 /// True when the branch is a curve of touches inside arcs.
 inline bool keeps_touch(const BranchSettings& settings) {
     return settings.kept && settings.kept->type == PointType::grazing && !settings.kept->at_end;

@@ -1,5 +1,6 @@
 #include "branch/sensitivity_condition.hpp"
 
+#include "branch/point_kind.hpp"
 #include "grazing/return_map.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/eigen_index.hpp"
@@ -65,13 +66,8 @@ bool SensitivityCondition::evaluate(const OrbitEquations& equations, const Orbit
 void SensitivityCondition::renew(const OrbitEquations& equations, const OrbitEvaluation& at) {
     if (!displaced_.evaluate(at.unknowns, tried_))
         return;
-    std::optional<OrbitMinimum> nearest;
-    for (const OrbitMinimum& minimum : certify(displaced_, tried_).minima)
-        if (minimum.segment == segment_ && minimum.event == event_ &&
-            (!nearest || std::abs(minimum.value) < std::abs(nearest->value)))
-            nearest = minimum;
-    if (nearest)
-        share_ = nearest->time / equations.orbit_of(at.unknowns).durations[segment_];
+    if (const auto touch = touch_in(certify(displaced_, tried_), segment_, event_))
+        share_ = touch->time / equations.orbit_of(at.unknowns).durations[segment_];
 }
 
 } // namespace graze

@@ -134,20 +134,13 @@ private:
 };
 
 void count(Yield& result) {
-    for (const Device& device : result.devices)
-        switch (device.outcome) {
-        case DeviceOutcome::found:
-            ++result.found;
-            break;
-        case DeviceOutcome::inadmissible:
-            ++result.inadmissible;
-            break;
-        case DeviceOutcome::failed:
-            ++result.failed;
-            break;
-        case DeviceOutcome::not_made:
-            break;
-        }
+    const auto number_of = [&](DeviceOutcome outcome) {
+        return static_cast<std::size_t>(std::count_if(result.devices.begin(), result.devices.end(),
+                                                      [&](const Device& device) { return device.outcome == outcome; }));
+    };
+    result.found = number_of(DeviceOutcome::found);
+    result.inadmissible = number_of(DeviceOutcome::inadmissible);
+    result.failed = number_of(DeviceOutcome::failed);
     result.made = result.found + result.inadmissible + result.failed;
 }
 
