@@ -2,6 +2,7 @@
 
 #include "base/linear_systems.hpp"
 #include "base/special_numbers.hpp"
+#include "branch/inserted_contact.hpp"
 #include "flow/lie_derivative.hpp"
 #include "orbit/eigen_index.hpp"
 #include "orbit/newton.hpp"
@@ -340,9 +341,8 @@ std::optional<Orbit> AccumulatingOrbit::orbit_for_output(double& gap) {
                     taken(remainder.motion.durations), like_.symmetry};
         const VectorXd after = vector_of(remainder.motion.starts[remainder.segments]);
         // One last segment stands for all remaining contacts: the orbit ends where they accumulate.
-        orbit.signature.push_back(orbit.signature[remainder.contact]);
-        orbit.starts.push_back(remainder.motion.starts[remainder.segments]);
-        orbit.durations.push_back(remainder.left);
+        append(orbit, Segment(orbit.signature[remainder.contact]), remainder.motion.starts[remainder.segments],
+               remainder.left);
         gap = 0;
         for (Eigen::Index i = 0; i < n; ++i) {
             const double period = periods_[static_cast<std::size_t>(i)],

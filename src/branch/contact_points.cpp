@@ -155,14 +155,8 @@ std::vector<BranchStart> leave_double_grazing(const System& system, const Specia
     std::vector<BranchStart> starts;
     std::string why = "the orbit touches nothing";
     for (const OrbitTouch& touch : touches_of(system, point.solution.orbit)) {
-        SpecialPoint one = point;
-        one.type = PointType::grazing;
-        one.segment = touch.segment;
-        one.event = touch.event;
-        one.time = touch.time;
-        one.at_end = touch.at_end;
         try {
-            for (BranchStart& start : leave_grazing(system, one, settings))
+            for (BranchStart& start : leave_grazing(system, grazing_at(point, touch), settings))
                 starts.push_back(std::move(start));
         } catch (const InputError& error) {
             why = error.problem();

@@ -105,14 +105,10 @@ SpecialPoint as_type(const SpecialPoint& point, PointType type) {
                              ? fmt::format("no curve begins there: choose a point of type {}", fmt::join(kept, ", "))
                              : fmt::format("curves that begin there are {}", quoted(known)));
     }
+    if (const auto touch = touch_of(point); type == PointType::grazing && !is_grazing(point.type) && touch)
+        return grazing_at(point, {touch->segment, touch->event, touch->time, false});
     SpecialPoint result = point;
     result.type = type;
-    if (const auto touch = touch_of(point); type == PointType::grazing && !is_grazing(point.type) && touch) {
-        result.segment = touch->segment;
-        result.event = touch->event;
-        result.time = touch->time;
-        result.at_end = false;
-    }
     return result;
 }
 

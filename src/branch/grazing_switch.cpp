@@ -20,7 +20,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace graze {
 
@@ -109,10 +108,6 @@ std::optional<std::size_t> mode_after(const System& model, std::size_t transitio
     return chosen ? chosen->mode : std::nullopt;
 }
 
-double sum(const std::vector<double>& values) {
-    return std::accumulate(values.begin(), values.end(), 0.0);
-}
-
 /// Moves an orbit, with the parameter, to where the event of its last segment is reached at a given speed.
 /// @return tangent of the branch there, towards higher speeds; empty when Newton's method fails
 OrbitDirection solve_for_speed(const Simulation& simulation, Orbit& orbit, double speed,
@@ -160,20 +155,11 @@ std::optional<Orbit> followed_after_contact(const Simulation& simulation, const 
         why = motion.problem;
         return std::nullopt;
     }
-    Orbit orbit;
-    orbit.parameters = grazing.parameters;
-    orbit.symmetry = grazing.symmetry;
-    orbit.signature = motion.segments;
-    orbit.starts = motion.starts;
-    orbit.durations = motion.durations;
-    orbit.durations.push_back(period - sum(motion.durations));
+    Orbit orbit{motion.segments, grazing.parameters, motion.starts, motion.durations, grazing.symmetry};
     orbit.signature.push_back(last);
+    orbit.durations.push_back(period - orbit.return_time());
     return orbit;
 }
-
-} // namespace
-
-namespace {
 
 /// Makes first guesses of orbits in which a touch has become a contact of small speed.
 class NewContact {

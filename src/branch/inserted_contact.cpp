@@ -34,15 +34,11 @@ std::vector<Entry> two_rounds(const System& system, const Orbit& orbit) {
 
 /// Merges each segment that no event ends with the following one.
 Orbit joined(const Orbit& like, const std::vector<Entry>& entries) {
-    Orbit orbit;
-    orbit.parameters = like.parameters;
-    orbit.symmetry = like.symmetry;
+    Orbit orbit{{}, like.parameters, {}, {}, like.symmetry};
     bool continues = false;
     for (const Entry& entry : entries) {
         if (!continues) {
-            orbit.signature.push_back(entry.segment);
-            orbit.starts.push_back(entry.start);
-            orbit.durations.push_back(entry.duration);
+            append(orbit, entry.segment, entry.start, entry.duration);
         } else {
             orbit.signature.back() = entry.segment;
             orbit.durations.back() += entry.duration;
@@ -86,21 +82,16 @@ std::optional<Orbit> with_contact_inserted(const Simulation& simulation, const S
 }
 
 Orbit begun_after_first_contact(const System& system, const Orbit& like, const FollowedMotion& motion, double period) {
-    Orbit orbit;
-    orbit.parameters = like.parameters;
-    orbit.symmetry = like.symmetry;
+    Orbit orbit{{}, like.parameters, {}, {}, like.symmetry};
     const std::size_t count = motion.segments.size();
     double known = 0;
     for (std::size_t k = 1; k < count; ++k) {
-        orbit.signature.push_back(motion.segments[k]);
-        orbit.starts.push_back(motion.starts[k]);
-        orbit.durations.push_back(motion.durations[k]);
+        append(orbit, motion.segments[k], motion.starts[k], motion.durations[k]);
         known += motion.durations[k];
     }
-    orbit.signature.push_back(like.symmetry ? image_of(system, *like.symmetry, motion.segments[0], like)
-                                            : motion.segments[0]);
-    orbit.starts.push_back(motion.starts[count]);
-    orbit.durations.push_back(period - known);
+    const Segment& first = motion.segments[0];
+    append(orbit, like.symmetry ? image_of(system, *like.symmetry, first, like) : first, motion.starts[count],
+           period - known);
     return orbit;
 }
 

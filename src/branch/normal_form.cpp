@@ -27,14 +27,13 @@ public:
     static constexpr std::size_t most_unknowns = 600;
 
     Expansion(const OrbitEquations& equations, const OrbitEvaluation& at, SecondVariation& variation)
-        : equations_(equations), shifted_(at), variation_(variation),
-          columns_(at.scales.head(index(equations.layout().start_of(at.pieces.size())))), rows_(columns_.size()),
-          fixed_(MatrixXd::Zero(columns_.size(), columns_.size())), closing_(fixed_) {
+        : equations_(equations), shifted_(at), variation_(variation), columns_(units_of_columns(equations, at)),
+          rows_(units_of_rows(equations, at)), fixed_(MatrixXd::Zero(columns_.size(), columns_.size())),
+          closing_(fixed_) {
         const auto n = index(equations.layout().states()), pieces = index(at.pieces.size());
         for (Eigen::Index k = 0; k < pieces; ++k) { // blocks are already scaled
             const CyclicSystem::Block& block = at.system.block(static_cast<std::size_t>(k));
             const Eigen::Index place = k * (n + 1);
-            rows_.segment(place, n + 1) << at.pieces[static_cast<std::size_t>(k)].condition_unit, at.scales.head(n);
             fixed_.block(place, place, n + 1, n + 1) += block.own;
             const bool closes = k + 1 == pieces;
             (closes ? closing_ : fixed_).block(place, closes ? 0 : place + n + 1, n + 1, n) += block.next;
@@ -288,8 +287,7 @@ namespace {
 /// Returns the coefficient D of the torus as a cubic coefficient.
 std::optional<Cubic> torus_cubic(const OrbitEquations& equations, const OrbitEvaluation& at,
                                  SecondVariation& variation) {
-    const VectorXd ones = VectorXd::Ones(index(equations.layout().start_of(at.pieces.size())));
-    const auto multiplier = pair_on_circle(CyclicMatrix(at.system, 1, ones, ones).multipliers());
+    const auto multiplier = pair_on_circle(multipliers_of(equations, at));
     auto cubic = multiplier ? cubic_coefficient(equations, at, *multiplier, variation) : std::nullopt;
     if (cubic)
         *cubic = {std::conj(*multiplier) * cubic->value / 2.0, cubic->error / 2, cubic->is_simple};
@@ -315,6 +313,23 @@ std::optional<Criticality> torus_criticality(const OrbitEquations& equations, co
     SecondVariation variation(equations);
     const auto cubic = torus_cubic(equations, at, variation);
     return cubic ? std::optional(Criticality{cubic->value.real(), cubic->error, cubic->is_simple}) : std::nullopt;
+}
+
+VectorXd units_of_columns(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    return at.scales.head(index(equations.layout().start_of(at.pieces.size())));
+}
+
+VectorXd units_of_rows(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    const auto n = index(equations.layout().states());
+    VectorXd result(index(at.pieces.size()) * (n + 1));
+    for (std::size_t k = 0; k < at.pieces.size(); ++k)
+        result.segment(index(k) * (n + 1), n + 1) << at.pieces[k].condition_unit, at.scales.head(n);
+    return result;
+}
+
+std::vector<Complex> multipliers_of(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    const VectorXd ones = VectorXd::Ones(index(equations.layout().start_of(at.pieces.size())));
+    return CyclicMatrix(at.system, 1, ones, ones).multipliers();
 }
 
 std::optional<Complex> pair_on_circle(const std::vector<Complex>& multipliers) {

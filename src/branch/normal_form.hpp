@@ -61,6 +61,13 @@ std::optional<FoldForm> fold_form(const OrbitEquations& equations, const OrbitEv
 /// @param at evaluation at an orbit with a multiplier 1 and fold coefficient zero
 std::optional<double> cusp_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at);
 
+/// Return the units of starts and durations, and those of the equations: for each piece that of its end condition, then
+/// those of the states.
+Eigen::VectorXd units_of_columns(const OrbitEquations& equations, const OrbitEvaluation& at);
+Eigen::VectorXd units_of_rows(const OrbitEquations& equations, const OrbitEvaluation& at);
+/// Returns the multipliers of the equations, without a division by contact speeds.
+std::vector<std::complex<double>> multipliers_of(const OrbitEquations& equations, const OrbitEvaluation& at);
+
 /// Returns the multiplier in the upper half plane nearest to the unit circle; empty if there is none.
 std::optional<std::complex<double>> pair_on_circle(const std::vector<std::complex<double>>& multipliers);
 

@@ -232,6 +232,16 @@ std::optional<HeldLimit> held_limit_of(const SpecialPoint& point) {
     }
 }
 
+SpecialPoint grazing_at(const SpecialPoint& point, const OrbitTouch& touch) {
+    SpecialPoint result = point;
+    result.type = PointType::grazing;
+    result.segment = touch.segment;
+    result.event = touch.event;
+    result.time = touch.time;
+    result.at_end = touch.at_end;
+    return result;
+}
+
 std::optional<OrbitMinimum> touch_in(const Certificate& certificate, std::size_t segment, std::size_t event) {
     std::optional<OrbitMinimum> nearest;
     for (const OrbitMinimum& one : certificate.minima)

@@ -3,6 +3,7 @@
 #include "branch/orbit_condition.hpp"
 #include "graze/branch/orbit_branch.hpp"
 #include "graze/branch/switching.hpp"
+#include "graze/grazing/cycle_map.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/orbit_equations.hpp"
 
@@ -20,6 +21,9 @@ class BranchState;
 inline bool is_grazing(PointType type) {
     return type == PointType::grazing || type == PointType::double_grazing;
 }
+
+/// Returns a point as a grazing at one of the touches of its orbit.
+SpecialPoint grazing_at(const SpecialPoint& point, const OrbitTouch& touch);
 
 /// Returns the minimum of an event function in a segment that is nearest to zero; empty if it has none.
 std::optional<OrbitMinimum> touch_in(const Certificate& certificate, std::size_t segment, std::size_t event);

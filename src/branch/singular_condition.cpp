@@ -12,20 +12,6 @@ namespace graze {
 
 namespace {
 
-/// Return the units of starts and durations, and those of the equations: for each piece that of its end condition, then
-/// those of the states.
-Eigen::VectorXd units_of_columns(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    return at.scales.head(index(equations.layout().start_of(at.pieces.size())));
-}
-
-Eigen::VectorXd units_of_rows(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    const auto n = index(equations.layout().states());
-    Eigen::VectorXd result(index(at.pieces.size()) * (n + 1));
-    for (std::size_t k = 0; k < at.pieces.size(); ++k)
-        result.segment(index(k) * (n + 1), n + 1) << at.pieces[k].condition_unit, at.scales.head(n);
-    return result;
-}
-
 using Multipliers = std::vector<std::complex<double>>;
 
 /// Returns the pair, conjugate or both real, whose product and sum are nearest to the given ones. Products are compared
@@ -144,8 +130,7 @@ TorusCondition::TorusCondition(const OrbitEquations& equations, const OrbitEvalu
     : MultiplierCondition(equations, at), sum_(sum), product_(product), kept_sum_(sum), kept_product_(product) {}
 
 std::unique_ptr<OrbitCondition> TorusCondition::of_pair(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    const Eigen::VectorXd ones = Eigen::VectorXd::Ones(index(equations.layout().start_of(at.pieces.size())));
-    const auto pair = pair_to_keep(CyclicMatrix(at.system, 1, ones, ones).multipliers());
+    const auto pair = pair_to_keep(multipliers_of(equations, at));
     if (!pair)
         return nullptr;
     const double sum = (pair->first + pair->second).real(), product = (pair->first * pair->second).real();

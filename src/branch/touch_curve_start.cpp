@@ -1,5 +1,6 @@
 #include "branch/touch_curve_start.hpp"
 
+#include "branch/inserted_contact.hpp"
 #include "branch/point_kind.hpp"
 #include "orbit/newton.hpp"
 #include "orbit/orbit_flow.hpp"
@@ -63,15 +64,8 @@ bool join_across_contact(const System& system, Orbit& orbit, SpecialPoint& kept)
     kept.event = system.model().transitions[orbit.signature[before].index].event;
     kept.time = orbit.durations[before];
     kept.at_end = false;
-    Orbit joined = orbit;
-    joined.signature.clear();
-    joined.starts.clear();
-    joined.durations.clear();
-    const auto add = [&](std::size_t s) {
-        joined.signature.push_back(orbit.signature[s]);
-        joined.starts.push_back(orbit.starts[s]);
-        joined.durations.push_back(orbit.durations[s]);
-    };
+    Orbit joined{{}, orbit.parameters, {}, {}, orbit.symmetry};
+    const auto add = [&](std::size_t s) { append(joined, orbit.signature[s], orbit.starts[s], orbit.durations[s]); };
     // Copy the other segments, starting after the merged arcs or, where it stays first, with the first segment.
     const std::size_t others = after == before ? 0 : count - way - 1;
     for (std::size_t i = 0; wraps && i < others; ++i)
