@@ -29,6 +29,12 @@ std::size_t place_of(const OrbitEquations& equations, ParameterId parameter) {
     return equations.layout().parameter(static_cast<std::size_t>(which));
 }
 
+/// Returns the change of a varying parameter over the last step.
+double length_of_step(BranchState& state, ParameterId parameter) {
+    const std::size_t place = place_of(state.problem().equations(), parameter);
+    return std::abs(state.continuation().point().u[place] - state.continuation().previous().u[place]);
+}
+
 } // namespace
 
 std::vector<BranchTest> tests_of_bounds(const BranchSettings& settings, std::span<const double> parameters,
@@ -64,16 +70,6 @@ void test_bounds(const TestedPoint& point, std::vector<BranchTest>& tests) {
         tests.push_back(test);
     }
 }
-
-namespace {
-
-/// Returns the change of a varying parameter over the last step.
-double length_of_step(BranchState& state, ParameterId parameter) {
-    const std::size_t place = place_of(state.problem().equations(), parameter);
-    return std::abs(state.continuation().point().u[place] - state.continuation().previous().u[place]);
-}
-
-} // namespace
 
 bool confirm_bound(BranchState& state, SpecialPoint& special, const BranchTest& test) {
     const BranchSettings& settings = state.settings();

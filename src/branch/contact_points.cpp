@@ -54,6 +54,23 @@ bool belongs_to_contact(const TestedPoint& point, const OrbitMinimum& minimum) {
             minimum.time < at_start * duration);
 }
 
+/// True when the value at the end of a segment is zero because the curve keeps the duration of this or the next segment
+/// at zero.
+bool belongs_to_vanishing(const TestedPoint& point, const EndValue& end) {
+    const std::size_t next = (end.segment + 1) % point.equations.signature().size();
+    return has_zero_duration(point, end.segment) ||
+           (has_zero_duration(point, next) && own_event(point, next) == end.event &&
+            point.equations.signature()[next].end == SegmentEnd::event);
+}
+
+/// True when a segment ends with a kept contact of zero speed that is followed by segments of zero duration: the guard
+/// depends on their vanishing motion, so its margin is undefined.
+bool guard_is_undetermined(const TestedPoint& point, std::size_t segment) {
+    const auto& kept = point.settings.kept;
+    const auto held = kept ? held_limit_of(*kept) : std::nullopt;
+    return held && held->kind == HeldLimit::Kind::stop && held->segment == segment && held->zero_durations > 0;
+}
+
 } // namespace
 
 // Grazing: the approach speed at the end of an arc vanishes, or an event function has a minimum of zero inside an arc.
@@ -187,19 +204,6 @@ std::unique_ptr<OrbitCondition> condition_of_vanishing(const OrbitEquations& equ
     return held(OrbitQuantity::of_vanishing(equations, point.segment));
 }
 
-namespace {
-
-/// True when the value at the end of a segment is zero because the curve keeps the duration of this or the next segment
-/// at zero.
-bool belongs_to_vanishing(const TestedPoint& point, const EndValue& end) {
-    const std::size_t next = (end.segment + 1) % point.equations.signature().size();
-    return has_zero_duration(point, end.segment) ||
-           (has_zero_duration(point, next) && own_event(point, next) == end.event &&
-            point.equations.signature()[next].end == SegmentEnd::event);
-}
-
-} // namespace
-
 void test_two_events(const TestedPoint& point, std::vector<BranchTest>& tests) {
     for (const EndValue& end : point.solution.certificate.end_values) {
         const bool barrier = point.equations.model().events[end.event].kind == EventKind::barrier;
@@ -231,18 +235,6 @@ std::unique_ptr<OrbitCondition> condition_of_two_events(const OrbitEquations& eq
                                                         const SpecialPoint& point) {
     return held(OrbitQuantity::of_two_events(equations, point.segment, point.event));
 }
-
-namespace {
-
-/// True when a segment ends with a kept contact of zero speed that is followed by segments of zero duration: the guard
-/// depends on their vanishing motion, so its margin is undefined.
-bool guard_is_undetermined(const TestedPoint& point, std::size_t segment) {
-    const auto& kept = point.settings.kept;
-    const auto held = kept ? held_limit_of(*kept) : std::nullopt;
-    return held && held->kind == HeldLimit::Kind::stop && held->segment == segment && held->zero_durations > 0;
-}
-
-} // namespace
 
 void test_guard(const TestedPoint& point, std::vector<BranchTest>& tests) {
     for (std::size_t s = 0; s < point.equations.signature().size(); ++s) {

@@ -68,6 +68,29 @@ ContinuationPoint point_at(const std::vector<Sample>& samples, double fraction) 
     return result;
 }
 
+/// Returns the vertex of the parabola through three points, with its value.
+TestValue vertex_of(const TestValue& before, const TestValue& low, const TestValue& high) {
+    const double first = (low.value - before.value) / (low.fraction - before.fraction),
+                 second = (high.value - low.value) / (high.fraction - low.fraction),
+                 curvature = (second - first) / (high.fraction - before.fraction);
+    // p(s) = low + second (s - low) + curvature (s - low) (s - high)
+    const double vertex = 0.5 * (low.fraction + high.fraction) - 0.5 * second / curvature;
+    return {vertex, low.value + second * (vertex - low.fraction) +
+                        curvature * (vertex - low.fraction) * (vertex - high.fraction)};
+}
+
+/// Returns a point between a distant `end` and the vertex of a parabola that has the sign of `end` but lies near the
+/// zero; `end` itself if none is found.
+TestValue nearer(const TestValue& end, const TestValue& vertex, const std::function<double(double)>& value_at) {
+    constexpr double behind = 2, far = 0.5; // factors of the distance of the zero, and of the distance of the end
+    const double share = behind * std::sqrt(vertex.value / (vertex.value - end.value));
+    if (!(share < far))
+        return end;
+    TestValue result{vertex.fraction + share * (end.fraction - vertex.fraction), 0};
+    result.value = value_at(result.fraction);
+    return result.value * end.value > 0 ? result : end;
+}
+
 } // namespace
 
 std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, const PointTest& test,
@@ -111,33 +134,6 @@ std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, con
     }
     return std::nullopt;
 }
-
-namespace {
-
-/// Returns the vertex of the parabola through three points, with its value.
-TestValue vertex_of(const TestValue& before, const TestValue& low, const TestValue& high) {
-    const double first = (low.value - before.value) / (low.fraction - before.fraction),
-                 second = (high.value - low.value) / (high.fraction - low.fraction),
-                 curvature = (second - first) / (high.fraction - before.fraction);
-    // p(s) = low + second (s - low) + curvature (s - low) (s - high)
-    const double vertex = 0.5 * (low.fraction + high.fraction) - 0.5 * second / curvature;
-    return {vertex, low.value + second * (vertex - low.fraction) +
-                        curvature * (vertex - low.fraction) * (vertex - high.fraction)};
-}
-
-/// Returns a point between a distant `end` and the vertex of a parabola that has the sign of `end` but lies near the
-/// zero; `end` itself if none is found.
-TestValue nearer(const TestValue& end, const TestValue& vertex, const std::function<double(double)>& value_at) {
-    constexpr double behind = 2, far = 0.5; // factors of the distance of the zero, and of the distance of the end
-    const double share = behind * std::sqrt(vertex.value / (vertex.value - end.value));
-    if (!(share < far))
-        return end;
-    TestValue result{vertex.fraction + share * (end.fraction - vertex.fraction), 0};
-    result.value = value_at(result.fraction);
-    return result.value * end.value > 0 ? result : end;
-}
-
-} // namespace
 
 std::optional<double> possible_dip(const TestValue& before, const TestValue& low, const TestValue& high) {
     const auto [vertex, least] = vertex_of(before, low, high);

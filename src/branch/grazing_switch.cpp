@@ -235,6 +235,28 @@ bool is_within_bounds(const BranchSettings& settings, const Orbit& orbit, std::s
     return within;
 }
 
+/// Cuts off a motion where it returns to the contact that the orbit shall not have. It may reach it early, by a time
+/// that grows with the square root of the clearance.
+void cut_off_return(const System& system, FollowedMotion& motion, const Orbit& old, std::size_t segment,
+                    double period) {
+    constexpr double earliest = 0.02; // share of the period
+    const double early = std::min(earliest * period, 0.5 * old.durations[segment]);
+    Segment contact = old.signature[segment];
+    if (old.symmetry)
+        contact = image_of(system, *old.symmetry, contact, old);
+    double time = 0;
+    for (std::size_t k = 0; k < motion.segments.size(); ++k) {
+        time += motion.durations[k];
+        if (motion.segments[k].end == SegmentEnd::event && motion.segments[k].index == contact.index &&
+            time > period - early) {
+            motion.segments.resize(k);
+            motion.durations.resize(k);
+            motion.starts.resize(k + 1);
+            return;
+        }
+    }
+}
+
 } // namespace
 
 BranchStart with_one_more_contact(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
@@ -285,32 +307,6 @@ Orbit with_contact_of_no_speed(const System& system, const SpecialPoint& point, 
     throw InputError(fmt::format("no orbit with a contact more at '{}' was found: {}", contact.name(), why),
                      "the motion after the contact may accumulate contacts, or not come back");
 }
-
-namespace {
-
-/// Cuts off a motion where it returns to the contact that the orbit shall not have. It may reach it early, by a time
-/// that grows with the square root of the clearance.
-void cut_off_return(const System& system, FollowedMotion& motion, const Orbit& old, std::size_t segment,
-                    double period) {
-    constexpr double earliest = 0.02; // share of the period
-    const double early = std::min(earliest * period, 0.5 * old.durations[segment]);
-    Segment contact = old.signature[segment];
-    if (old.symmetry)
-        contact = image_of(system, *old.symmetry, contact, old);
-    double time = 0;
-    for (std::size_t k = 0; k < motion.segments.size(); ++k) {
-        time += motion.durations[k];
-        if (motion.segments[k].end == SegmentEnd::event && motion.segments[k].index == contact.index &&
-            time > period - early) {
-            motion.segments.resize(k);
-            motion.durations.resize(k);
-            motion.starts.resize(k + 1);
-            return;
-        }
-    }
-}
-
-} // namespace
 
 BranchStart with_one_contact_fewer(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
     const Model& model = system.model();

@@ -100,28 +100,6 @@ bool has_pair_on_circle(BranchState& state, const SpecialPoint& special) {
     return multipliers_agree(state, special, pair_off_circle, close);
 }
 
-} // namespace
-
-// Folds. With fixed monitors the parameter may have an extremum although no multiplier is 1, so the determinant is
-// tested then.
-
-void test_fold(const TestedPoint& point, std::vector<BranchTest>& tests) {
-    constexpr double least_rise = 1e-8; // share of the parameter in the tangent: smaller values are round-off
-    BranchTest test{.type = where_curves_meet(point, PointType::fold)};
-    if (point.settings.free.empty()) {
-        const std::size_t place = point.equations.layout().parameter(0);
-        test.value = point.tangent[place];
-        test.noise = least_rise * point.at.scales[index(place)];
-    } else {
-        const bool kept = is_kept(point, PointType::fold) || is_kept(point, PointType::branch_point);
-        test.value = kept ? not_a_number : point.at.system.periodic_determinant();
-        test.noise = point.at.system.periodic_noise();
-    }
-    tests.push_back(test);
-}
-
-namespace {
-
 std::string in_words(const FoldForm& form, const BranchState& state) {
     if (!form.turns)
         return "the side on which two orbits are is not decided: a is zero up to round-off";
@@ -141,7 +119,31 @@ std::string in_words(const Criticality& form, const char* name, int supercritica
     return fmt::format("{}critical, {} = {:.6g}", form.value * supercritical > 0 ? "super" : "sub", name, form.value);
 }
 
+/// Notes that the multiplier -1 belongs to a half orbit: a symmetry breaking, not a flip.
+void describe_asymmetry(const BranchState& state, SpecialPoint& special) {
+    const bool of_half = special.solution.orbit.symmetry || state.settings().kept->type == PointType::asymmetry;
+    special.detail = of_half ? "of a loss of symmetry" : "";
+}
+
 } // namespace
+
+// Folds. With fixed monitors the parameter may have an extremum although no multiplier is 1, so the determinant is
+// tested then.
+
+void test_fold(const TestedPoint& point, std::vector<BranchTest>& tests) {
+    constexpr double least_rise = 1e-8; // share of the parameter in the tangent: smaller values are round-off
+    BranchTest test{.type = where_curves_meet(point, PointType::fold)};
+    if (point.settings.free.empty()) {
+        const std::size_t place = point.equations.layout().parameter(0);
+        test.value = point.tangent[place];
+        test.noise = least_rise * point.at.scales[index(place)];
+    } else {
+        const bool kept = is_kept(point, PointType::fold) || is_kept(point, PointType::branch_point);
+        test.value = kept ? not_a_number : point.at.system.periodic_determinant();
+        test.noise = point.at.system.periodic_noise();
+    }
+    tests.push_back(test);
+}
 
 /// The side with two orbits is reported for branches in one parameter only.
 bool confirm_fold(BranchState& state, SpecialPoint& special, const BranchTest&) {
@@ -237,16 +239,6 @@ bool confirm_torus(BranchState& state, SpecialPoint& special, const BranchTest&)
         special.detail = in_words(*form, "d", -1, "two pairs are one");
     return special.located && has_pair_on_circle(state, special);
 }
-
-namespace {
-
-/// Notes that the multiplier -1 belongs to a half orbit: a symmetry breaking, not a flip.
-void describe_asymmetry(const BranchState& state, SpecialPoint& special) {
-    const bool of_half = special.solution.orbit.symmetry || state.settings().kept->type == PointType::asymmetry;
-    special.detail = of_half ? "of a loss of symmetry" : "";
-}
-
-} // namespace
 
 bool confirm_fold_flip(BranchState& state, SpecialPoint& special, const BranchTest&) {
     describe_asymmetry(state, special);

@@ -199,16 +199,6 @@ std::optional<Cubic> cubic_coefficient(const OrbitEquations& equations, const Or
     return result;
 }
 
-} // namespace
-
-std::optional<double> flip_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at,
-                                       SecondVariation& variation) {
-    const auto cubic = cubic_coefficient(equations, at, -1, variation);
-    return cubic && cubic->is_simple ? std::optional(cubic->value.real() / 6) : std::nullopt;
-}
-
-namespace {
-
 /// The null vectors at a multiplier 1, the right one with a first start of length 1, and their product.
 struct Fold {
     Fold(const Expansion& expansion, const MatrixXcd& matrix) {
@@ -223,7 +213,23 @@ struct Fold {
     double product = 0;
 };
 
+/// Returns the coefficient D of the torus as a cubic coefficient.
+std::optional<Cubic> torus_cubic(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                 SecondVariation& variation) {
+    const auto multiplier = pair_on_circle(multipliers_of(equations, at));
+    auto cubic = multiplier ? cubic_coefficient(equations, at, *multiplier, variation) : std::nullopt;
+    if (cubic)
+        *cubic = {std::conj(*multiplier) * cubic->value / 2.0, cubic->error / 2, cubic->is_simple};
+    return cubic;
+}
+
 } // namespace
+
+std::optional<double> flip_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                       SecondVariation& variation) {
+    const auto cubic = cubic_coefficient(equations, at, -1, variation);
+    return cubic && cubic->is_simple ? std::optional(cubic->value.real() / 6) : std::nullopt;
+}
 
 std::optional<FoldForm> fold_form(const OrbitEquations& equations, const OrbitEvaluation& at) {
     if (equations.layout().start_of(at.pieces.size()) > Expansion::most_unknowns || equations.free().empty())
@@ -281,20 +287,6 @@ std::optional<double> cusp_coefficient(const OrbitEquations& equations, const Or
     const double result = -cubic / (6 * fold.product);
     return std::isfinite(result) ? std::optional(result) : std::nullopt;
 }
-
-namespace {
-
-/// Returns the coefficient D of the torus as a cubic coefficient.
-std::optional<Cubic> torus_cubic(const OrbitEquations& equations, const OrbitEvaluation& at,
-                                 SecondVariation& variation) {
-    const auto multiplier = pair_on_circle(multipliers_of(equations, at));
-    auto cubic = multiplier ? cubic_coefficient(equations, at, *multiplier, variation) : std::nullopt;
-    if (cubic)
-        *cubic = {std::conj(*multiplier) * cubic->value / 2.0, cubic->error / 2, cubic->is_simple};
-    return cubic;
-}
-
-} // namespace
 
 std::optional<Complex> torus_form(const OrbitEquations& equations, const OrbitEvaluation& at,
                                   SecondVariation& variation) {

@@ -150,6 +150,24 @@ constexpr auto kinds = [] {
     return result;
 }();
 
+constexpr std::string_view digits = "0123456789";
+
+/// Returns "-" if a type ends with a digit, to separate it from the number.
+std::string_view separator_after(std::string_view type) {
+    return digits.find(type.back()) != std::string_view::npos ? "-" : "";
+}
+
+/// Returns the number of segments of zero duration after a segment.
+std::size_t zero_durations_after(const Orbit& orbit, std::size_t segment) {
+    constexpr double nothing = 1e-8; // share of the period; located points are far more accurate
+    const std::size_t count = orbit.durations.size();
+    std::size_t result = 0;
+    while (result + 1 < count &&
+           std::abs(orbit.durations[(segment + result + 1) % count]) < nothing * orbit.return_time())
+        ++result;
+    return result;
+}
+
 } // namespace
 
 std::span<const PointRule> point_rules() {
@@ -176,17 +194,6 @@ std::optional<PointType> point_type(std::string_view name) {
     return std::nullopt;
 }
 
-namespace {
-
-constexpr std::string_view digits = "0123456789";
-
-/// Returns "-" if a type ends with a digit, to separate it from the number.
-std::string_view separator_after(std::string_view type) {
-    return digits.find(type.back()) != std::string_view::npos ? "-" : "";
-}
-
-} // namespace
-
 std::string point_label(PointType type, std::size_t number) {
     const std::string_view name = short_name(type);
     return fmt::format("{}{}{}", name, separator_after(name), number);
@@ -199,21 +206,6 @@ bool is_point_label(std::string_view text) {
                text.find_first_not_of(digits, begin.size()) == std::string_view::npos;
     });
 }
-
-namespace {
-
-/// Returns the number of segments of zero duration after a segment.
-std::size_t zero_durations_after(const Orbit& orbit, std::size_t segment) {
-    constexpr double nothing = 1e-8; // share of the period; located points are far more accurate
-    const std::size_t count = orbit.durations.size();
-    std::size_t result = 0;
-    while (result + 1 < count &&
-           std::abs(orbit.durations[(segment + result + 1) % count]) < nothing * orbit.return_time())
-        ++result;
-    return result;
-}
-
-} // namespace
 
 std::optional<HeldLimit> held_limit_of(const SpecialPoint& point) {
     const auto held = [&](HeldLimit::Kind kind) { return HeldLimit{kind, point.segment, point.event, 0}; };

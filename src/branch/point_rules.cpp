@@ -30,37 +30,6 @@ bool repeats_in_half(BranchState& state, const Orbit& orbit, double same) {
     });
 }
 
-} // namespace
-
-bool is_degenerate(BranchState& state, const Orbit& orbit, double same) {
-    const Model& model = state.model();
-    if (orbit.symmetry)
-        return false;
-    if (half_of(state.problem().equations(), orbit, same))
-        return true;
-    const std::size_t half = orbit.segments() / 2;
-    if (orbit.segments() % 2 != 0)
-        return false;
-    if (orbit.signature.front().end == SegmentEnd::cut)
-        return repeats_in_half(state, orbit, same);
-    for (std::size_t k = 0; k < half; ++k) {
-        if (orbit.signature[k] != orbit.signature[k + half])
-            return false;
-        for (const std::size_t i : state.problem().evaluation().active)
-            if (!model.states[i].period &&
-                std::abs(orbit.starts[k][i] - orbit.starts[k + half][i]) > same * state.problem().scales()[i])
-                return false;
-    }
-    return true;
-}
-
-bool is_degenerate(BranchState& state, const SpecialPoint& special) {
-    constexpr double same = 1e-3;
-    return special.type == PointType::branch_point && is_degenerate(state, special.solution.orbit, same);
-}
-
-namespace {
-
 /// Merges points at the same place that are consequences of one another: only the first in rank is kept.
 void merge(std::vector<SpecialPoint>& found, double length) {
     constexpr double same_place = 1e-6;
@@ -171,6 +140,33 @@ void drop_folds_at_branch_points(std::vector<SpecialPoint>& found, double length
 }
 
 } // namespace
+
+bool is_degenerate(BranchState& state, const Orbit& orbit, double same) {
+    const Model& model = state.model();
+    if (orbit.symmetry)
+        return false;
+    if (half_of(state.problem().equations(), orbit, same))
+        return true;
+    const std::size_t half = orbit.segments() / 2;
+    if (orbit.segments() % 2 != 0)
+        return false;
+    if (orbit.signature.front().end == SegmentEnd::cut)
+        return repeats_in_half(state, orbit, same);
+    for (std::size_t k = 0; k < half; ++k) {
+        if (orbit.signature[k] != orbit.signature[k + half])
+            return false;
+        for (const std::size_t i : state.problem().evaluation().active)
+            if (!model.states[i].period &&
+                std::abs(orbit.starts[k][i] - orbit.starts[k + half][i]) > same * state.problem().scales()[i])
+                return false;
+    }
+    return true;
+}
+
+bool is_degenerate(BranchState& state, const SpecialPoint& special) {
+    constexpr double same = 1e-3;
+    return special.type == PointType::branch_point && is_degenerate(state, special.solution.orbit, same);
+}
 
 void drop_consequences(BranchState& state, std::vector<SpecialPoint>& found, double length) {
     merge(found, length);

@@ -117,6 +117,46 @@ std::optional<Orbit> reordered_beyond(const System& system, const SpecialPoint& 
     return candidate && !have_same_segments(*candidate, orbit) ? candidate : std::nullopt;
 }
 
+/// Solves for an orbit from a guess; empty, with the reason set, if it is not admissible.
+std::optional<Orbit> admissible_from(const Simulation& simulation, const Orbit& guess, const OrbitOptions& options,
+                                     std::string& why) {
+    OrbitSolution solution;
+    try {
+        solution = solve_orbit(simulation.system(), guess, options);
+    } catch (const InputError& error) { // the motion does not give a possible signature
+        why = error.problem();
+        return std::nullopt;
+    }
+    if (solution.outcome != OrbitOutcome::converged)
+        why = solution.detail;
+    else if (is_admissible(simulation, solution.orbit, why))
+        return solution.orbit;
+    return std::nullopt;
+}
+
+/// Solves for an orbit from a guess beyond a point, with the direction of its branch away from the point. At a
+/// nonsmooth fold both orbits lie on the side from which the branch came, so the mirrored parameter is tried too.
+std::optional<BranchStart> start_from(const Simulation& simulation, const Orbit& guess, const BranchSettings& settings,
+                                      double parameter_there, std::string& why) {
+    OrbitOptions options = settings.orbit;
+    options.error_estimate = false;
+    const std::size_t place = settings.parameter.place();
+    auto orbit = admissible_from(simulation, guess, options, why);
+    if (!orbit) {
+        Orbit mirrored = guess;
+        mirrored.parameters[place] = 2 * parameter_there - guess.parameters[place];
+        std::string of_mirrored;
+        orbit = admissible_from(simulation, mirrored, options, of_mirrored);
+    }
+    if (!orbit)
+        return std::nullopt;
+    OrbitProblem problem(simulation, *orbit, settings.parameter);
+    const auto onward = problem.tangent_at(*orbit, orbit->parameters[place] < parameter_there ? -1 : 1);
+    if (!onward)
+        return std::nullopt;
+    return BranchStart{*orbit, *onward, 0, "with events in another order"};
+}
+
 } // namespace
 
 bool continue_reordered_curve(BranchState& state, const SpecialPoint& point) {
@@ -183,50 +223,6 @@ std::optional<DescribedPoint> continue_in_next_segment(BranchState& state, const
     }
     return std::nullopt;
 }
-
-namespace {
-
-/// Solves for an orbit from a guess; empty, with the reason set, if it is not admissible.
-std::optional<Orbit> admissible_from(const Simulation& simulation, const Orbit& guess, const OrbitOptions& options,
-                                     std::string& why) {
-    OrbitSolution solution;
-    try {
-        solution = solve_orbit(simulation.system(), guess, options);
-    } catch (const InputError& error) { // the motion does not give a possible signature
-        why = error.problem();
-        return std::nullopt;
-    }
-    if (solution.outcome != OrbitOutcome::converged)
-        why = solution.detail;
-    else if (is_admissible(simulation, solution.orbit, why))
-        return solution.orbit;
-    return std::nullopt;
-}
-
-/// Solves for an orbit from a guess beyond a point, with the direction of its branch away from the point. At a
-/// nonsmooth fold both orbits lie on the side from which the branch came, so the mirrored parameter is tried too.
-std::optional<BranchStart> start_from(const Simulation& simulation, const Orbit& guess, const BranchSettings& settings,
-                                      double parameter_there, std::string& why) {
-    OrbitOptions options = settings.orbit;
-    options.error_estimate = false;
-    const std::size_t place = settings.parameter.place();
-    auto orbit = admissible_from(simulation, guess, options, why);
-    if (!orbit) {
-        Orbit mirrored = guess;
-        mirrored.parameters[place] = 2 * parameter_there - guess.parameters[place];
-        std::string of_mirrored;
-        orbit = admissible_from(simulation, mirrored, options, of_mirrored);
-    }
-    if (!orbit)
-        return std::nullopt;
-    OrbitProblem problem(simulation, *orbit, settings.parameter);
-    const auto onward = problem.tangent_at(*orbit, orbit->parameters[place] < parameter_there ? -1 : 1);
-    if (!onward)
-        return std::nullopt;
-    return BranchStart{*orbit, *onward, 0, "with events in another order"};
-}
-
-} // namespace
 
 BranchStart with_events_reordered(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
     const Simulation simulation(system, {}, {}, integration(settings.orbit.tolerance));
