@@ -113,13 +113,9 @@ std::size_t BranchState::held_monitors() const {
     return settings_.free.size() - (settings_.kept ? 1U : 0U) - (settings_.kept_too ? 1U : 0U);
 }
 
-std::optional<HeldLimit> BranchState::held_limit() const {
-    return settings_.kept ? held_limit_of(*settings_.kept) : std::nullopt;
-}
-
 /// Updates the time of the kept touch: that of the minimum of its event function that is nearest to zero.
 void BranchState::update_kept_time(const OrbitSolution& solution) {
-    const auto held = held_limit();
+    const auto held = held_limit_of(settings_);
     if (!held || held->kind != HeldLimit::Kind::touch)
         return;
     SpecialPoint& kept = *settings_.kept;
@@ -201,7 +197,7 @@ std::optional<DescribedPoint> BranchState::describe(const ContinuationPoint& at)
     result.solution.outcome = OrbitOutcome::converged;
     result.solution.iterations = at.iterations;
     result.solution.orbit = problem_->orbit_of(at.u);
-    describe_orbit(equations, evaluation, result.solution, held_limit());
+    describe_orbit(equations, evaluation, result.solution, held_limit_of(settings_));
     update_kept_time(result.solution);
     result.parameter = at.u[problem_->parameter_place()];
     result.tangent = problem_->direction_of(at.tangent);
@@ -335,10 +331,8 @@ bool BranchState::restart(const Orbit& orbit, const OrbitDirection& direction, d
 /// True when sections must be kept: monitors refer to starts or ends of segments, or the kept point lies in a segment
 /// that would be merged.
 bool BranchState::needs_sections(const Orbit& orbit, const Orbit& without) const {
-    const bool taken = std::any_of(settings_.monitors.begin(), settings_.monitors.end(), [](const Monitor& monitor) {
-        return !monitor.segment.empty() || monitor.kind == Monitor::Kind::value || monitor.kind == Monitor::Kind::start;
-    });
-    return taken || (settings_.kept && kind_of(settings_.kept->type).limits && orbit.segments() != without.segments());
+    return refer_to_segments(settings_.monitors) ||
+           (settings_.kept && kind_of(settings_.kept->type).limits && orbit.segments() != without.segments());
 }
 
 bool BranchState::leave_sections(const BranchPoint& from) {
@@ -391,7 +385,7 @@ bool BranchState::continue_curve(const Orbit& guess, int direction, double arcle
         monitors_->set_signature(guess.signature);
     const double length = continuation_->next_step();
     arclength_ = arclength;
-    const auto held = held_limit();
+    const auto held = held_limit_of(settings_);
     if ((held && held->kind == HeldLimit::Kind::touch && !find_touch(guess)) || !make_problem(guess) ||
         !continuation_->start(problem_->unknowns_of(guess), problem_->parameter_place(), direction))
         return false;

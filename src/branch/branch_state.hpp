@@ -89,7 +89,6 @@ private:
     bool keeps_branch_point() const { return settings_.kept && settings_.kept->type == PointType::branch_point; }
     bool hold_kept(const Orbit& orbit);
     std::size_t held_monitors() const;
-    std::optional<HeldLimit> held_limit() const;
     void update_kept_time(const OrbitSolution& solution);
     bool find_touch(const Orbit& orbit);
     bool needs_sections(const Orbit& orbit, const Orbit& without) const;

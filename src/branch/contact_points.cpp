@@ -32,8 +32,7 @@ std::size_t own_event(const TestedPoint& point, std::size_t segment) {
 
 /// True when a curve keeps the duration of a segment at zero; then no other events are tested in it.
 bool has_zero_duration(const TestedPoint& point, std::size_t segment) {
-    const auto& kept = point.settings.kept;
-    const auto held = kept ? held_limit_of(*kept) : std::nullopt;
+    const auto held = held_limit_of(point.settings);
     return held && held->has_zero_duration(segment, point.equations.signature().size());
 }
 
@@ -66,8 +65,7 @@ bool belongs_to_vanishing(const TestedPoint& point, const EndValue& end) {
 /// True when a segment ends with a kept contact of zero speed that is followed by segments of zero duration: the guard
 /// depends on their vanishing motion, so its margin is undefined.
 bool guard_is_undetermined(const TestedPoint& point, std::size_t segment) {
-    const auto& kept = point.settings.kept;
-    const auto held = kept ? held_limit_of(*kept) : std::nullopt;
+    const auto held = held_limit_of(point.settings);
     return held && held->kind == HeldLimit::Kind::stop && held->segment == segment && held->zero_durations > 0;
 }
 

@@ -8,9 +8,6 @@ namespace graze {
 
 namespace {
 
-/// Offsets of the sample points from the estimated zero, as fractions of the step: near enough for an accurate
-/// polynomial, far enough for Newton's method to stay on the branch.
-constexpr double usual_offsets[] = {-0.12, -0.09, -0.06, -0.03, 0.03, 0.06, 0.09, 0.12};
 constexpr std::size_t fewest = 6;
 constexpr int most_rounds = 8;
 constexpr double settled = 0.015;
@@ -94,13 +91,8 @@ TestValue nearer(const TestValue& end, const TestValue& vertex, const std::funct
 } // namespace
 
 std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, const PointTest& test,
-                                                 const TestValue& begin, const TestValue& end, double reach) {
-    return locate_crossing(continuation, test, begin, end, usual_offsets, reach);
-}
-
-std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, const PointTest& test,
-                                                 const TestValue& begin, const TestValue& end,
-                                                 std::span<const double> offsets, double reach) {
+                                                 const TestValue& begin, const TestValue& end, double reach,
+                                                 std::span<const double> offsets) {
     double low = begin.fraction, high = end.fraction;
     double guess = low + (high - low) * begin.value / (begin.value - end.value);
     if (!std::isfinite(guess)) // a test may be infinite, as multipliers near a touch

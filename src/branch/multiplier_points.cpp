@@ -40,6 +40,15 @@ PointType where_curves_meet(const TestedPoint& point, PointType own) {
                                     : own;
 }
 
+/// @param type flip or, for half orbits, asymmetry
+BranchTest test_of_multiplier_minus_one(const TestedPoint& point, PointType type) {
+    const bool tested =
+        point.equations.symmetry().has_value() == (type == PointType::asymmetry) && !is_kept(point, type);
+    return {.type = where_curves_meet(point, type),
+            .value = tested ? point.at.system.antiperiodic_determinant() : not_a_number,
+            .noise = tested ? point.at.system.antiperiodic_noise() : 0};
+}
+
 /// Returns the distance of the nearest multiplier from a number.
 double distance_to(const OrbitSolution& solution, double wanted) {
     double nearest = std::numeric_limits<double>::infinity();
@@ -116,7 +125,8 @@ std::string in_words(const Criticality& form, const char* name, int supercritica
         return fmt::format("{} has no value: {}", name, several);
     if (!form.is_decided())
         return fmt::format("criticality not decided, {} = 0 +- {:.1e}", name, form.error);
-    return fmt::format("{}critical, {} = {:.6g}", form.value * supercritical > 0 ? "super" : "sub", name, form.value);
+    return fmt::format("{}critical, {} = {:.6g}", form.value() * supercritical > 0 ? "super" : "sub", name,
+                       form.value());
 }
 
 /// Notes that the multiplier -1 belongs to a half orbit: a symmetry breaking, not a flip.
@@ -162,21 +172,16 @@ std::unique_ptr<OrbitCondition> condition_of_fold(const OrbitEquations& equation
 // Flips. A multiplier -1 of the half map of a symmetric orbit breaks the symmetry instead of doubling the period.
 
 void test_flip(const TestedPoint& point, std::vector<BranchTest>& tests) {
-    const bool tested = !point.equations.symmetry() && !is_kept(point, PointType::flip);
-    tests.push_back({.type = where_curves_meet(point, PointType::flip),
-                     .value = tested ? point.at.system.antiperiodic_determinant() : not_a_number,
-                     .noise = tested ? point.at.system.antiperiodic_noise() : 0});
+    tests.push_back(test_of_multiplier_minus_one(point, PointType::flip));
 }
 
 void test_asymmetry(const TestedPoint& point, std::vector<BranchTest>& tests) {
-    const bool tested = point.equations.symmetry() && !is_kept(point, PointType::asymmetry);
-    tests.push_back({.type = where_curves_meet(point, PointType::asymmetry),
-                     .value = tested ? point.at.system.antiperiodic_determinant() : not_a_number,
-                     .noise = tested ? point.at.system.antiperiodic_noise() : 0});
+    tests.push_back(test_of_multiplier_minus_one(point, PointType::asymmetry));
 }
 
 bool confirm_flip(BranchState& state, SpecialPoint& special, const BranchTest&) {
-    if (const auto form = flip_criticality(state.problem().equations(), state.problem().evaluation()))
+    SecondVariation variation(state.problem().equations());
+    if (const auto form = flip_criticality(state.problem().equations(), state.problem().evaluation(), variation))
         special.detail = in_words(*form, "c", 1, "two multipliers are -1");
     return special.located && has_multiplier(state, special, -1);
 }
@@ -235,12 +240,13 @@ void test_torus(const TestedPoint& point, std::vector<BranchTest>& tests) {
 }
 
 bool confirm_torus(BranchState& state, SpecialPoint& special, const BranchTest&) {
-    if (const auto form = torus_criticality(state.problem().equations(), state.problem().evaluation()))
+    SecondVariation variation(state.problem().equations());
+    if (const auto form = torus_criticality(state.problem().equations(), state.problem().evaluation(), variation))
         special.detail = in_words(*form, "d", -1, "two pairs are one");
     return special.located && has_pair_on_circle(state, special);
 }
 
-bool confirm_fold_flip(BranchState& state, SpecialPoint& special, const BranchTest&) {
+bool confirm_beside_flip(BranchState& state, SpecialPoint& special, const BranchTest&) {
     describe_asymmetry(state, special);
     return special.located;
 }
@@ -269,11 +275,6 @@ bool confirm_resonance(BranchState&, SpecialPoint& special, const BranchTest& te
 bool confirm_cusp(BranchState& state, SpecialPoint& special, const BranchTest&) {
     if (const auto coefficient = cusp_coefficient(state.problem().equations(), state.problem().evaluation()))
         special.detail = fmt::format("c = {:.6g}", *coefficient);
-    return special.located;
-}
-
-bool confirm_generalised(BranchState& state, SpecialPoint& special, const BranchTest&) {
-    special.detail = state.settings().kept->type == PointType::asymmetry ? "of a loss of symmetry" : "";
     return special.located;
 }
 

@@ -155,17 +155,10 @@ constexpr double round_off_of_product = 1e-12;
 /// a located point are less accurate than round-off.
 constexpr double least_product = 1e-9;
 
-/// A coefficient with its error due to round-off.
-struct Cubic {
-    Complex value;
-    double error = 0;
-    bool is_simple = true; ///< false: the multiplier is not simple, so that the coefficient is undefined
-};
-
 /// Computes F_3(q, q, q*) + 2 F_2(q, z_11) + F_2(q*, z_20), projected on the critical direction. z_11 and z_20 are the
 /// second-order corrections of the mean and of the second harmonic.
-std::optional<Cubic> cubic_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at, Complex multiplier,
-                                       SecondVariation& variation) {
+std::optional<Criticality> cubic_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                             Complex multiplier, SecondVariation& variation) {
     if (equations.layout().start_of(at.pieces.size()) > Expansion::most_unknowns)
         return std::nullopt;
     Expansion expansion(equations, at, variation);
@@ -193,8 +186,8 @@ std::optional<Cubic> cubic_coefficient(const OrbitEquations& equations, const Or
     const double spread = 2 * mean_spread.norm() + second_spread.norm();
     const double error = spread * size + with_q.norm() * (second.norm() + 2 * mean.norm()) + parts * q.norm();
     const bool is_simple = std::abs(product) > least_product * left.norm() * (expansion.closing() * q).norm();
-    const Cubic result{-(third + rest) / product, round_off_of_product * error / std::abs(product), is_simple};
-    if (!std::isfinite(result.value.real()) || !std::isfinite(result.value.imag()) || !std::isfinite(result.error))
+    const Criticality result{-(third + rest) / product, round_off_of_product * error / std::abs(product), is_simple};
+    if (!std::isfinite(result.form.real()) || !std::isfinite(result.form.imag()) || !std::isfinite(result.error))
         return std::nullopt;
     return result;
 }
@@ -213,23 +206,7 @@ struct Fold {
     double product = 0;
 };
 
-/// Returns the coefficient D of the torus as a cubic coefficient.
-std::optional<Cubic> torus_cubic(const OrbitEquations& equations, const OrbitEvaluation& at,
-                                 SecondVariation& variation) {
-    const auto multiplier = pair_on_circle(multipliers_of(equations, at));
-    auto cubic = multiplier ? cubic_coefficient(equations, at, *multiplier, variation) : std::nullopt;
-    if (cubic)
-        *cubic = {std::conj(*multiplier) * cubic->value / 2.0, cubic->error / 2, cubic->is_simple};
-    return cubic;
-}
-
 } // namespace
-
-std::optional<double> flip_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at,
-                                       SecondVariation& variation) {
-    const auto cubic = cubic_coefficient(equations, at, -1, variation);
-    return cubic && cubic->is_simple ? std::optional(cubic->value.real() / 6) : std::nullopt;
-}
 
 std::optional<FoldForm> fold_form(const OrbitEquations& equations, const OrbitEvaluation& at) {
     if (equations.layout().start_of(at.pieces.size()) > Expansion::most_unknowns || equations.free().empty())
@@ -288,23 +265,21 @@ std::optional<double> cusp_coefficient(const OrbitEquations& equations, const Or
     return std::isfinite(result) ? std::optional(result) : std::nullopt;
 }
 
-std::optional<Complex> torus_form(const OrbitEquations& equations, const OrbitEvaluation& at,
-                                  SecondVariation& variation) {
-    const auto cubic = torus_cubic(equations, at, variation);
-    return cubic ? std::optional(cubic->value) : std::nullopt;
+std::optional<Criticality> flip_criticality(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                            SecondVariation& variation) {
+    auto cubic = cubic_coefficient(equations, at, -1, variation);
+    if (cubic)
+        *cubic = {cubic->form / 6.0, cubic->error / 6, cubic->is_simple};
+    return cubic;
 }
 
-std::optional<Criticality> flip_criticality(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    SecondVariation variation(equations);
-    const auto cubic = cubic_coefficient(equations, at, -1, variation);
-    return cubic ? std::optional(Criticality{cubic->value.real() / 6, cubic->error / 6, cubic->is_simple})
-                 : std::nullopt;
-}
-
-std::optional<Criticality> torus_criticality(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    SecondVariation variation(equations);
-    const auto cubic = torus_cubic(equations, at, variation);
-    return cubic ? std::optional(Criticality{cubic->value.real(), cubic->error, cubic->is_simple}) : std::nullopt;
+std::optional<Criticality> torus_criticality(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                             SecondVariation& variation) {
+    const auto multiplier = pair_on_circle(multipliers_of(equations, at));
+    auto cubic = multiplier ? cubic_coefficient(equations, at, *multiplier, variation) : std::nullopt;
+    if (cubic)
+        *cubic = {std::conj(*multiplier) * cubic->form / 2.0, cubic->error / 2, cubic->is_simple};
+    return cubic;
 }
 
 VectorXd units_of_columns(const OrbitEquations& equations, const OrbitEvaluation& at) {

@@ -18,29 +18,27 @@ namespace graze {
 // factor mu; F_2 and F_3 are the second and third derivatives of the equations with respect to starts and durations.
 // Second derivatives are exact, third derivatives are differences of these.
 
+/// The coefficient of a flip or of a torus point with its error due to round-off.
+struct Criticality {
+    std::complex<double> form;
+    double error = 0;
+    bool is_simple = true; ///< false: the multiplier is multiple up to round-off, so that the coefficient is undefined
+    double value() const { return form.real(); }
+    /// True when the sign is significant; for linear and conservative models the coefficient is zero up to round-off.
+    bool is_decided() const { return std::abs(value()) > error; }
+};
 /// Returns the coefficient c of the flip, w -> -w + c w^3: for c > 0 (supercritical) the bifurcating orbit of twice the
 /// period is stable if the original one has no other unstable direction. For a half orbit, the bifurcating orbit is
 /// asymmetric.
 /// @param at evaluation at an orbit with a multiplier -1. @param variation compiled second derivatives of these
 /// equations; compiling takes much longer than evaluating. @return empty where it cannot be computed
-std::optional<double> flip_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at,
-                                       SecondVariation& variation);
-
+std::optional<Criticality> flip_criticality(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                            SecondVariation& variation);
 /// Returns the coefficient D of the torus, w -> mu w (1 + D |w|^2). For a negative real part (supercritical) the torus
 /// is stable, likewise; the imaginary part is the change of the rotation angle.
 /// @param at evaluation at an orbit with two multipliers on the unit circle
-std::optional<std::complex<double>> torus_form(const OrbitEquations& equations, const OrbitEvaluation& at,
-                                               SecondVariation& variation);
-
-/// The coefficient of a flip or of a torus point with its error due to round-off.
-struct Criticality {
-    double value = 0, error = 0;
-    bool is_simple = true; ///< false: the multiplier is multiple up to round-off, so that the coefficient is undefined
-    /// True when the sign is significant; for linear and conservative models the coefficient is zero up to round-off.
-    bool is_decided() const { return std::abs(value) > error; }
-};
-std::optional<Criticality> flip_criticality(const OrbitEquations& equations, const OrbitEvaluation& at);
-std::optional<Criticality> torus_criticality(const OrbitEquations& equations, const OrbitEvaluation& at);
+std::optional<Criticality> torus_criticality(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                             SecondVariation& variation);
 
 /// Normal form of a fold, w -> w + b (p - p_0) + a w^2: two orbits exist on one side of the parameter, at w^2 = -b (p -
 /// p_0)/a to first order; one of them is stable if there is no other unstable direction.

@@ -179,8 +179,7 @@ private:
         found = {*shrinking_.end()};
         found[0].bracket = std::minmax(here.point.parameter, found[0].parameter);
         found[0].step = ++here.point.step;
-        end_at(0);
-        finish(BranchOutcome::shrunk, "");
+        finish_at(0, BranchOutcome::shrunk, "");
         return true;
     }
     /// Makes a step. If it ends on a branch of simpler orbits (half the period, or symmetric), it has passed the
@@ -347,6 +346,10 @@ private:
         here.point.monitors = found[i].monitors;
         here.point.stable = is_stable(here.point.solution);
     }
+    void finish_at(std::size_t i, BranchOutcome how, std::string why) {
+        end_at(i);
+        finish(how, std::move(why));
+    }
     /// Returns why orbits beyond special point i are inadmissible; empty if they are admissible. Admissibility is
     /// tested at the end of the step or, if another limit point follows, half-way to it, because the second may undo
     /// the effect of the first.
@@ -369,42 +372,31 @@ private:
     /// Ends the branch or changes its signature at the special points found.
     void end_or_reorder(bool was_admissible) {
         for (std::size_t i = 0; i < found.size(); ++i) {
-            if (found[i].type == PointType::bound) {
-                end_at(i);
-                return finish(BranchOutcome::bound, "");
-            }
+            const PointType type = found[i].type;
+            if (type == PointType::bound)
+                return finish_at(i, BranchOutcome::bound, "");
             if (is_degenerate(state_, found[i])) {
                 found[i].detail = returned_to_simpler;
-                end_at(i);
-                return finish(BranchOutcome::returned, found[i].detail);
+                return finish_at(i, BranchOutcome::returned, returned_to_simpler);
             }
-            if (ends_torus_curve(found[i])) {
-                end_at(i);
-                return finish(BranchOutcome::stopped, "beyond, the two multipliers are real");
-            }
-            if (is_among(found[i].type, state_.settings().stop_at)) {
-                end_at(i);
-                return finish(BranchOutcome::stopped, std::string(name_of(found[i].type)));
-            }
+            if (ends_torus_curve(found[i]))
+                return finish_at(i, BranchOutcome::stopped, "beyond, the two multipliers are real");
+            if (is_among(type, state_.settings().stop_at))
+                return finish_at(i, BranchOutcome::stopped, std::string(name_of(type)));
             const bool may_end = state_.settings().stop_when_unphysical && was_admissible && rank(found[i]) >= 0;
             const std::string reason = may_end ? unphysical_beyond(i) : "";
-            if (!reason.empty()) {
-                end_at(i);
-                // With another signature, a kept point that belongs to a segment is only found again if it is a touch.
-                const auto& kept = state_.settings().kept;
-                const bool reordering = state_.settings().reorder &&
-                                        (!kept || !kind_of(kept->type).limits || keeps_touch(state_.settings())) &&
-                                        !is_grazing(found[i].type);
-                if (!reordering || !continue_reordered(found[i])) {
-                    end_at(i); // discard the attempts beyond
-                    return finish(BranchOutcome::unphysical, reason);
-                }
-                if (is_beyond_bounds(here.tests)) { // a bound lies just beyond the point
-                    end_at(i);
-                    finish(BranchOutcome::bound, "");
-                }
-                return;
-            }
+            if (reason.empty())
+                continue;
+            end_at(i);
+            // With another signature, a kept point that belongs to a segment is only found again if it is a touch.
+            const auto& kept = state_.settings().kept;
+            const bool reordering = state_.settings().reorder && !is_grazing(type) &&
+                                    (!kept || !kind_of(kept->type).limits || keeps_touch(state_.settings()));
+            if (!reordering || !continue_reordered(found[i]))
+                return finish_at(i, BranchOutcome::unphysical, reason); // without the attempts beyond
+            if (is_beyond_bounds(here.tests))                           // a bound lies just beyond the point
+                finish_at(i, BranchOutcome::bound, "");
+            return;
         }
         if (state_.settings().stop_when_unphysical && was_admissible && !here.point.solution.certificate.admissible)
             finish(BranchOutcome::unphysical, here.point.solution.certificate.reason);

@@ -7,6 +7,7 @@
 #include "orbit/certify.hpp"
 #include "orbit/orbit_equations.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -34,6 +35,13 @@ std::optional<OrbitMinimum> nearest_touch(const Certificate& certificate, std::s
 /// True when the branch is a curve of touches inside arcs.
 inline bool keeps_touch(const BranchSettings& settings) {
     return settings.kept && settings.kept->type == PointType::grazing && !settings.kept->at_end;
+}
+
+/// True when a monitor refers to the start or end of a segment.
+inline bool refer_to_segments(const std::vector<Monitor>& monitors) {
+    return std::any_of(monitors.begin(), monitors.end(), [](const Monitor& one) {
+        return !one.segment.empty() || one.kind == Monitor::Kind::value || one.kind == Monitor::Kind::start;
+    });
 }
 
 /// A test function along a branch: a change of its sign indicates a special point.
@@ -103,6 +111,10 @@ const PointRule& rule_of(PointType type);
 /// Returns the constraint by which a point's condition places its orbits at the limit of admissibility; empty if it
 /// does not.
 std::optional<HeldLimit> held_limit_of(const SpecialPoint& point);
+/// The same for the kept point of a curve; empty for branches that are no curves.
+inline std::optional<HeldLimit> held_limit_of(const BranchSettings& settings) {
+    return settings.kept ? held_limit_of(*settings.kept) : std::nullopt;
+}
 
 /// Returns all test functions at a point, always in the same order for one signature.
 std::vector<BranchTest> branch_tests(const TestedPoint& point);

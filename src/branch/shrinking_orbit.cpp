@@ -81,7 +81,7 @@ std::optional<SpecialPoint> locate_equilibrium(BranchState& state, const Orbit& 
         const auto located = [&](std::array<double, 8> offsets) {
             for (double& offset : offsets)
                 offset *= scale;
-            return locate_crossing(state.continuation(), value, begin, end, offsets);
+            return locate_crossing(state.continuation(), value, begin, end, 1, offsets);
         };
         const auto one = located({-0.4, -0.3, -0.2, -0.1, 0.1, 0.2, 0.3, 0.4}),
                    other = located({-0.44, -0.34, -0.22, -0.12, 0.12, 0.22, 0.34, 0.44});

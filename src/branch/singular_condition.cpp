@@ -122,7 +122,8 @@ std::vector<Degeneracy> SingularCondition::degeneracies(const OrbitEquations& eq
     if (multiplier_ > 0)
         return {{PointType::cusp, along_}, {PointType::resonance_1, simplicity_, least_product}};
     const double nothing = std::numeric_limits<double>::quiet_NaN();
-    return {{PointType::generalised, flip_coefficient(equations, at, variation()).value_or(nothing)},
+    const auto form = flip_criticality(equations, at, variation());
+    return {{PointType::generalised, form && form->is_simple ? form->value() : nothing},
             {PointType::resonance_2, simplicity_, least_product}};
 }
 
@@ -168,9 +169,9 @@ std::vector<Degeneracy> TorusCondition::degeneracies(const OrbitEquations& equat
     // the resonances at 1 and -1, where the two multipliers coincide.
     constexpr double digits = 1e-5, least_apart = 1e-6;
     const double apart = 1 - sum_ * sum_ / 4; // the square of the imaginary part
-    const auto form = apart > least_apart ? torus_form(equations, at, variation()) : std::nullopt;
+    const auto form = apart > least_apart ? torus_criticality(equations, at, variation()) : std::nullopt;
     const Degeneracy generalised =
-        form ? Degeneracy{PointType::generalised_torus, form->real(), digits * std::abs(*form) / apart}
+        form ? Degeneracy{PointType::generalised_torus, form->value(), digits * std::abs(form->form) / apart}
              : Degeneracy{PointType::generalised_torus, std::numeric_limits<double>::quiet_NaN()};
     return {{PointType::resonance_1, sum_ - 2},
             {PointType::resonance_2, sum_ + 2},

@@ -141,19 +141,12 @@ bool move_start_off_touch(const System& system, const BranchSettings& settings, 
     return true;
 }
 
-/// True when monitors refer to starts or ends of segments.
-bool needs_segments(const BranchSettings& settings) {
-    return std::any_of(settings.monitors.begin(), settings.monitors.end(), [](const Monitor& monitor) {
-        return !monitor.segment.empty() || monitor.kind == Monitor::Kind::value || monitor.kind == Monitor::Kind::start;
-    });
-}
-
 } // namespace
 
 CurveStart start_of_curve(const System& system, const Orbit& orbit, const BranchSettings& settings) {
     CurveStart result{orbit, settings};
     if (!settings.kept || settings.kept->type != PointType::grazing || settings.kept->segment >= orbit.segments() ||
-        orbit.durations.size() != orbit.segments() || needs_segments(settings))
+        orbit.durations.size() != orbit.segments() || refer_to_segments(settings.monitors))
         return result;
     SpecialPoint& kept = *result.settings.kept;
     if (kept.at_end && !join_across_contact(system, result.orbit, kept))

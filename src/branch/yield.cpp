@@ -15,6 +15,7 @@
 #include <functional>
 #include <map>
 #include <numbers>
+#include <numeric>
 
 namespace graze {
 
@@ -262,20 +263,18 @@ void add_statistics(Yield& result, const YieldSettings& settings) {
 
 /// Returns the standard deviation of the linear predictions.
 double deviation_of_linear(const Yield& result) {
-    double sum = 0, squares = 0;
-    std::size_t n = 0;
-    for (const Device& device : result.devices)
-        if (device.outcome != DeviceOutcome::not_made) {
-            sum += device.linear - result.nominal;
-            ++n;
-        }
-    if (n < 2)
-        return 0;
-    const double mean = sum / static_cast<double>(n);
+    std::vector<double> differences;
     for (const Device& device : result.devices)
         if (device.outcome != DeviceOutcome::not_made)
-            squares += std::pow(device.linear - result.nominal - mean, 2);
-    return std::sqrt(squares / static_cast<double>(n - 1));
+            differences.push_back(device.linear - result.nominal);
+    const auto n = static_cast<double>(differences.size());
+    if (n < 2)
+        return 0;
+    const double mean = std::accumulate(differences.begin(), differences.end(), 0.0) / n;
+    double squares = 0;
+    for (const double one : differences)
+        squares += std::pow(one - mean, 2);
+    return std::sqrt(squares / (n - 1));
 }
 
 } // namespace
