@@ -132,10 +132,7 @@ void put_on_bounds(const BranchSettings& settings, Orbit& orbit) {
     const auto put = [&](ParameterId parameter, const std::optional<double>& least,
                          const std::optional<double>& greatest) {
         double& value = orbit.parameters[parameter.place()];
-        if (least)
-            value = std::max(value, *least);
-        if (greatest)
-            value = std::min(value, *greatest);
+        value = std::min(std::max(value, least.value_or(value)), greatest.value_or(value));
     };
     put(settings.parameter, settings.least, settings.greatest);
     for (const FreeBounds& bounds : settings.free_bounds)

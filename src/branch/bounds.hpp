@@ -22,6 +22,10 @@ bool is_beyond_bounds(const std::vector<BranchTest>& tests);
 std::string beyond_in_words(const BranchState& state, const BranchPoint& point);
 /// True when the first point of a branch lies on a bound of a parameter and the branch leads across it.
 bool leads_beyond_bounds(BranchState& state);
+/// True when a value of the parameter lies outside of its bounds.
+inline bool is_outside(const BranchSettings& settings, double value) {
+    return (settings.least && value < *settings.least) || (settings.greatest && value > *settings.greatest);
+}
 /// Clamps parameters to their bounds, which round-off may have exceeded.
 void put_on_bounds(const BranchSettings& settings, Orbit& orbit);
 

@@ -1,5 +1,6 @@
 #include "branch/branch_state.hpp"
 
+#include "branch/bounds.hpp"
 #include "branch/branch_point_problem.hpp"
 #include "branch/orbit_quantity.hpp"
 #include "branch/sensitivity_condition.hpp"
@@ -29,7 +30,7 @@ BranchState::BranchState(const System& system, const Orbit& candidate, const Bra
     const Model& model = system.model();
     settings_.validate(model);
     validate_orbit(model, candidate);
-    if (is_outside(candidate.parameters[settings.parameter.place()]))
+    if (is_outside(settings, candidate.parameters[settings.parameter.place()]))
         throw InputError(fmt::format("the orbit's {} = {} lies outside the branch's bounds",
                                      model.independent_parameters()[settings.parameter.place()],
                                      candidate.parameters[settings.parameter.place()]),
@@ -184,10 +185,6 @@ std::vector<double> BranchState::rates_at(const Orbit& orbit, std::size_t segmen
     return system().mode(orbit.signature[segment].mode).rates(inputs);
 }
 
-bool BranchState::is_outside(double parameter) const {
-    return (settings_.least && parameter < *settings_.least) || (settings_.greatest && parameter > *settings_.greatest);
-}
-
 std::optional<DescribedPoint> BranchState::describe(const ContinuationPoint& at) {
     OrbitEquations& equations = problem_->equations();
     if (!problem_->evaluate(at.u))
@@ -231,9 +228,7 @@ std::optional<double> BranchState::error_of(const Orbit& orbit, const OrbitDirec
     if (!problem.evaluate(problem.unknowns_of(orbit)) ||
         !problem.solve(problem.row_of(problem.unknowns_of(tangent)), 0, false, step, nullptr))
         return std::nullopt;
-    double error = 0;
-    for (std::size_t i = 0; i < step.size(); ++i)
-        error = std::max(error, std::abs(step[i]) / problem.scales()[i]);
+    const double error = vector_of(step).cwiseQuotient(vector_of(problem.scales())).cwiseAbs().maxCoeff();
     return std::isfinite(error) ? std::optional(error) : std::nullopt;
 }
 

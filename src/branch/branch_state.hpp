@@ -50,7 +50,6 @@ public:
     std::vector<double> rates_at_sections();
     /// Returns the vector field at the start of a segment.
     std::vector<double> rates_at(const Orbit& orbit, std::size_t segment) const;
-    bool is_outside(double parameter) const;
 
     /// Describes a point of the branch; empty where its equations are not defined.
     std::optional<DescribedPoint> describe(const ContinuationPoint& at);

@@ -1,6 +1,6 @@
 #include "graze/branch/ladder.hpp"
 
-#include "branch/point_kind.hpp"
+#include "branch/bounds.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/grazing/cycle_map.hpp"
 
@@ -40,8 +40,7 @@ Ladder::Ladder(const System& system, const SpecialPoint& grazing, const BranchSe
     settings_.validate(system.model());
     SpecialPoint& first = grazings_.front();
     first.parameter = first.solution.orbit.parameters[settings.parameter.place()];
-    if ((settings.least && first.parameter < *settings.least) ||
-        (settings.greatest && first.parameter > *settings.greatest))
+    if (is_outside(settings, first.parameter))
         throw InputError(fmt::format("the grazing from which the ladder starts, at {:.9g}, lies outside of its bounds",
                                      first.parameter),
                          "give wider bounds");

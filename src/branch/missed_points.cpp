@@ -113,16 +113,20 @@ private:
         });
     }
 
+    /// Returns the indices of tests of crossing multipliers that change their sign.
+    static std::vector<std::size_t> changed_tests(const StepSample& low, const StepSample& high) {
+        const std::vector<BranchTest>&first = low.here.tests, &last = high.here.tests;
+        std::vector<std::size_t> changed;
+        for (std::size_t i = 0; i < first.size() && first.size() == last.size(); ++i)
+            if (crossing_at(first[i].type) > 0 && first[i].value * last[i].value < 0)
+                changed.push_back(i);
+        return changed;
+    }
     bool is_explained_by_tests(const StepSample& low, const StepSample& high, std::vector<SpecialPoint>& located) {
         int singles = 0, pairs = 0;
-        std::vector<std::size_t> changed;
-        for (std::size_t i = 0; i < low.here.tests.size() && low.here.tests.size() == high.here.tests.size(); ++i) {
-            const int count = crossing_at(low.here.tests[i].type);
-            if (count == 0 || !(low.here.tests[i].value * high.here.tests[i].value < 0))
-                continue;
-            (count == 1 ? singles : pairs) += 1;
-            changed.push_back(i);
-        }
+        const std::vector<std::size_t> changed = changed_tests(low, high);
+        for (const std::size_t i : changed)
+            (crossing_at(low.here.tests[i].type) == 1 ? singles : pairs) += 1;
         if (changed.empty() ||
             !may_explain(unstable(low.multipliers(), margin), unstable(high.multipliers(), margin), singles, pairs))
             return false;
@@ -167,12 +171,10 @@ private:
             note(low, high, rank, PointType::torus, in_words(others, "the unit circle"));
     }
     static std::optional<PointType> singular_type(const StepSample& low, const StepSample& high) {
-        for (std::size_t i = 0; i < low.here.tests.size() && low.here.tests.size() == high.here.tests.size(); ++i) {
-            const PointType type = low.here.tests[i].type;
-            if ((type == PointType::fold || type == PointType::branch_point) &&
-                low.here.tests[i].value * high.here.tests[i].value < 0)
+        for (const std::size_t i : changed_tests(low, high))
+            if (const PointType type = low.here.tests[i].type;
+                type == PointType::fold || type == PointType::branch_point)
                 return type;
-        }
         return std::nullopt;
     }
     static bool is_near(std::complex<double> multiplier, double number) {

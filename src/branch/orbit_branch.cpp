@@ -28,10 +28,6 @@ std::string reason_of(const BranchPoint& point) {
     return point.solution.certificate.admissible ? "" : point.solution.certificate.reason;
 }
 
-bool is_among(PointType type, const std::vector<PointType>& types) {
-    return std::find(types.begin(), types.end(), type) != types.end();
-}
-
 } // namespace
 
 class OrbitBranch::Follower {
@@ -381,7 +377,7 @@ private:
             }
             if (ends_torus_curve(found[i]))
                 return finish_at(i, BranchOutcome::stopped, "beyond, the two multipliers are real");
-            if (is_among(type, state_.settings().stop_at))
+            if (std::ranges::count(state_.settings().stop_at, type) > 0)
                 return finish_at(i, BranchOutcome::stopped, std::string(name_of(type)));
             const bool may_end = state_.settings().stop_when_unphysical && was_admissible && rank(found[i]) >= 0;
             const std::string reason = may_end ? unphysical_beyond(i) : "";

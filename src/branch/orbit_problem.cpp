@@ -30,13 +30,11 @@ OrbitProblem::OrbitProblem(std::unique_ptr<OrbitEquations> equations)
     const double of_starts = std::min(1.0, typical_starts / (states * segments)),
                  of_durations = std::min(1.0, typical_durations / segments);
     for (std::size_t k = 0; k < layout.pieces(); ++k) {
-        const std::size_t segment = layout.segment_of(k), next = layout.duration_of(k);
+        const std::size_t segment = layout.segment_of(k);
         const auto count = static_cast<double>(1 + layout.last_piece(segment) - layout.first_piece(segment));
-        std::fill(weights_.begin() + static_cast<std::ptrdiff_t>(layout.start_of(k)),
-                  weights_.begin() + static_cast<std::ptrdiff_t>(next), of_starts / count);
-        weights_[next] = of_durations;
-        const auto inner = weights_.begin() + static_cast<std::ptrdiff_t>(layout.inner_of(k));
-        std::fill(inner, inner + static_cast<std::ptrdiff_t>(layout.inner()), 0.0);
+        entries_of(weights_).segment(index(layout.start_of(k)), index(layout.states())).setConstant(of_starts / count);
+        weights_[layout.duration_of(k)] = of_durations;
+        entries_of(weights_).segment(index(layout.inner_of(k)), index(layout.inner())).setZero();
     }
 }
 

@@ -36,6 +36,11 @@ Expression composed(Model& model, const Expression& expression, const std::vecto
     return substitute(expression, replacements);
 }
 
+std::vector<double> start_of_piece(const OrbitEquations& equations, const OrbitEvaluation& at, std::size_t piece) {
+    const double* start = at.unknowns.data() + equations.layout().start_of(piece);
+    return {start, start + equations.layout().states()};
+}
+
 const Transition& transition_of(const OrbitEquations& equations, std::size_t segment) {
     require_index(segment, equations.signature().size(), "segment");
     if (equations.signature()[segment].end != SegmentEnd::event)
@@ -175,10 +180,10 @@ bool OrbitQuantity::at_end(const OrbitEquations& equations, const OrbitEvaluatio
 
 bool OrbitQuantity::at_start(const OrbitEquations& equations, const OrbitEvaluation& at) {
     const auto n = index(equations.layout().states());
-    const Eigen::Index place = index(equations.layout().start_of(equations.layout().first_piece(segment_.value_or(0))));
-    const std::vector<double> state(at.unknowns.data() + place, at.unknowns.data() + place + n);
-    const Eigen::VectorXd by_all = gradient_at(equations, at, watched_[0], state, value_);
-    gradient_.segment(place, n) = by_all.head(n).transpose();
+    const std::size_t piece = equations.layout().first_piece(segment_.value_or(0));
+    const Eigen::VectorXd by_all =
+        gradient_at(equations, at, watched_[0], start_of_piece(equations, at, piece), value_);
+    gradient_.segment(index(equations.layout().start_of(piece)), n) = by_all.head(n).transpose();
     gradient_.tail(by_all.size() - n) = by_all.tail(by_all.size() - n).transpose();
     return true;
 }
@@ -209,7 +214,6 @@ std::optional<OrbitQuantity::Place> OrbitQuantity::find_extremum(const OrbitEqua
     double whole = 0, before = 0; // durations of all pieces, and of the previous ones
     for (const std::size_t k : pieces(equations.layout()))
         whole += at.unknowns[index(equations.layout().duration_of(k))];
-    const std::size_t n = equations.layout().states();
     std::optional<Place> best;
     std::vector<double> coefficients, derivative;
     std::vector<Root> found;
@@ -220,8 +224,7 @@ std::optional<OrbitQuantity::Place> OrbitQuantity::find_extremum(const OrbitEqua
             if (std::isfinite(preference) && (!best || preference > best->preference))
                 best = Place{watched, k, time, at_end, value, preference, share};
         };
-        const double* start = at.unknowns.data() + equations.layout().start_of(k);
-        std::vector<double> state(start, start + n);
+        std::vector<double> state = start_of_piece(equations, at, k);
         const std::size_t mode = equations.mode_of(k);
         const std::size_t events = simulation_.system().mode(mode).watched.size();
         const double duration = at.unknowns[index(equations.layout().duration_of(k))];
@@ -263,8 +266,7 @@ bool OrbitQuantity::extremum(const OrbitEquations& equations, const OrbitEvaluat
         gradient_ = equations.row_at_end(at, place->piece, by_all);
         return true;
     }
-    const double* start = at.unknowns.data() + equations.layout().start_of(place->piece);
-    std::vector<double> state(start, start + n);
+    std::vector<double> state = start_of_piece(equations, at, place->piece);
     Eigen::MatrixXd flow;
     if (run(flow_, equations.mode_of(place->piece), state, place->time, flow) != ModeFlow::Ending::done)
         return false;
@@ -282,14 +284,13 @@ bool OrbitQuantity::mean(const OrbitEquations& equations, const OrbitEvaluation&
     double integral = 0, time = 0;
     const double share = 1.0 / static_cast<double>(watched_.size());
     for (const std::size_t k : pieces(equations.layout())) {
-        const double* start = at.unknowns.data() + equations.layout().start_of(k);
         const std::size_t mode = equations.mode_of(k);
         const double duration = at.unknowns[index(equations.layout().duration_of(k))];
-        std::vector<double> state(start, start + n);
+        std::vector<double> state = start_of_piece(equations, at, k);
         std::vector<std::pair<double, double>> steps;
         flow_.run(mode, state, duration,
                   [&](const Jet&, double begin, double length) { steps.emplace_back(begin, length); });
-        state.assign(start, start + n);
+        state = start_of_piece(equations, at, k);
         double now = 0;
         Eigen::MatrixXd flow = Eigen::MatrixXd::Identity(n, n + q), part;
         for (const auto& [begin, length] : steps)
