@@ -40,21 +40,16 @@ BranchState::BranchState(const System& system, const Orbit& candidate, const Bra
             std::make_unique<OrbitMonitors>(system, candidate.signature, settings.monitors, settings.orbit.tolerance);
     if (keeps_branch_point() && settings.free.size() > 1)
         throw InputError("monitors cannot be fixed along a curve of branch points", "leave `fixed` out");
-    hold(candidate);
+    // Fixed monitors without a value are held at that of the candidate, also in later problems of the branch.
+    const std::vector<double> values =
+        monitors_ && !settings.free.empty() ? (*monitors_)(candidate) : std::vector<double>();
+    for (std::size_t m = 0; m < values.size(); ++m)
+        if (settings_.monitors[m].fixed && !settings_.monitors[m].held)
+            settings_.monitors[m].held = values[m];
     if (!make_problem(candidate))
         throw InputError(
             fmt::format("the condition of a point of type {} cannot be held there", short_name(settings.kept->type)),
             "choose another point");
-}
-
-/// Sets the held values of fixed monitors without one to those of the candidate, also for later problems of the branch.
-void BranchState::hold(const Orbit& candidate) {
-    if (settings_.free.empty() || !monitors_)
-        return;
-    const std::vector<double> values = (*monitors_)(candidate);
-    for (std::size_t m = 0; m < values.size(); ++m)
-        if (settings_.monitors[m].fixed && !settings_.monitors[m].held)
-            settings_.monitors[m].held = values[m];
 }
 
 /// Makes the equations and the continuation for an orbit. @return false where the kept point has no condition

@@ -83,7 +83,6 @@ public:
     bool keep_image_of_touch(const Orbit& orbit);
 
 private:
-    void hold(const Orbit& candidate);
     void hold_monitors();
     bool keeps_branch_point() const { return settings_.kept && settings_.kept->type == PointType::branch_point; }
     bool hold_kept(const Orbit& orbit);

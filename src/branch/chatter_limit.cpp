@@ -179,10 +179,8 @@ private:
         const std::array factors{first, first * known.times, first * known.times * known.times};
         const Extrapolated result = extrapolate(values_, factors);
         constexpr std::size_t used = 4; // number of values that enter one extrapolated value
-        double noise = 0;
-        for (std::size_t k = noise_.size() - std::min(noise_.size(), used); k < noise_.size(); ++k)
-            noise = std::max(noise, noise_[k]);
-        return {result.value, result.error + result.amplified * noise};
+        const auto first_used = noise_.end() - static_cast<std::ptrdiff_t>(std::min(noise_.size(), used));
+        return {result.value, result.error + result.amplified * *std::max_element(first_used, noise_.end())};
     }
 
     AccumulatingOrbit orbit_;

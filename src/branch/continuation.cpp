@@ -63,26 +63,6 @@ std::string_view name_of(ContinuationOutcome outcome) {
     return names[static_cast<std::size_t>(outcome)];
 }
 
-double ContinuationProblem::product(std::span<const double> a, std::span<const double> b) const {
-    const auto scales = this->scales(), weights = this->weights();
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        sum += a[i] / scales[i] * (b[i] / scales[i]) * (weights.empty() ? 1 : weights[i]);
-    return sum;
-}
-
-double ContinuationProblem::length_of(std::span<const double> direction) const {
-    return std::sqrt(product(direction, direction));
-}
-
-std::vector<double> ContinuationProblem::row_of(std::span<const double> direction) const {
-    const auto scales = this->scales(), weights = this->weights();
-    std::vector<double> row(direction.size());
-    for (std::size_t i = 0; i < direction.size(); ++i)
-        row[i] = direction[i] / (scales[i] * scales[i]) * (weights.empty() ? 1 : weights[i]);
-    return row;
-}
-
 Continuation::Continuation(std::shared_ptr<ContinuationProblem> problem, const ContinuationOptions& options)
     : problem_(required(std::move(problem), "a problem")), options_(options), next_step_(options.first_step) {
     options_.validate();

@@ -1,5 +1,7 @@
 #include "branch/crossing.hpp"
 
+#include "orbit/eigen_index.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -56,10 +58,8 @@ ContinuationPoint point_at(const std::vector<Sample>& samples, double fraction) 
     result.u.assign(samples[0].point.u.size(), 0.0);
     result.tangent.assign(result.u.size(), 0.0);
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        for (std::size_t k = 0; k < result.u.size(); ++k) {
-            result.u[k] += weights[i] * samples[i].point.u[k];
-            result.tangent[k] += weights[i] * samples[i].point.tangent[k];
-        }
+        entries_of(result.u) += weights[i] * vector_of(samples[i].point.u);
+        entries_of(result.tangent) += weights[i] * vector_of(samples[i].point.tangent);
         result.arclength += weights[i] * samples[i].point.arclength;
     }
     return result;

@@ -73,10 +73,7 @@ struct Touch {
                 wanted[k] /= unit;
             }
         const Eigen::VectorXd step = shortest_solution(rows, wanted);
-        std::vector<double> result = state;
-        for (std::size_t i = 0; i < n; ++i)
-            result[i] += step[index(i)] * shooting.scales()[index(i)];
-        return result;
+        return numbers_of(vector_of(state) + step.cwiseProduct(shooting.scales().head(index(n))));
     }
 
     std::vector<double> inputs(std::vector<double> values) const {

@@ -30,17 +30,9 @@ Count unstable(const MultiplierList& multipliers, double margin) {
 
 /// Returns by how many a point of this type changes the number of unstable multipliers; 0 for other types.
 int crossing_at(PointType type) {
-    switch (type) {
-    case PointType::fold:
-    case PointType::branch_point:
-    case PointType::flip:
-    case PointType::asymmetry:
-        return 1;
-    case PointType::torus:
-        return 2;
-    default:
-        return 0;
-    }
+    const bool single = type == PointType::fold || type == PointType::branch_point || type == PointType::flip ||
+                        type == PointType::asymmetry;
+    return single ? 1 : type == PointType::torus ? 2 : 0;
 }
 
 /// True when crossings of `singles` single multipliers and `pairs` pairs may change one number into the other.

@@ -208,20 +208,15 @@ bool is_point_label(std::string_view text) {
 }
 
 std::optional<HeldLimit> held_limit_of(const SpecialPoint& point) {
-    const auto held = [&](HeldLimit::Kind kind) { return HeldLimit{kind, point.segment, point.event, 0}; };
-    switch (point.type) {
-    case PointType::grazing:
-        if (!point.at_end)
-            return held(HeldLimit::Kind::touch);
-        return HeldLimit{HeldLimit::Kind::stop, point.segment, point.event,
-                         zero_durations_after(point.solution.orbit, point.segment)};
-    case PointType::vanishing:
+    const auto held = [&](HeldLimit::Kind kind, std::size_t zero_durations = 0) {
+        return HeldLimit{kind, point.segment, point.event, zero_durations};
+    };
+    if (point.type == PointType::grazing)
+        return point.at_end ? held(HeldLimit::Kind::stop, zero_durations_after(point.solution.orbit, point.segment))
+                            : held(HeldLimit::Kind::touch);
+    if (point.type == PointType::vanishing)
         return held(HeldLimit::Kind::vanishing);
-    case PointType::guard:
-        return held(HeldLimit::Kind::guard);
-    default:
-        return std::nullopt;
-    }
+    return point.type == PointType::guard ? std::optional(held(HeldLimit::Kind::guard)) : std::nullopt;
 }
 
 SpecialPoint grazing_at(const SpecialPoint& point, const OrbitTouch& touch) {

@@ -40,10 +40,7 @@ std::vector<SpecialPoint> PointLocator::locate_all(const DescribedPoint& before)
                 note(*special, before.point, tests[i].singular);
                 found.push_back(std::move(*special));
             }
-    const std::size_t count = found.size();
-    add_bounds_before(found, tests);
-    for (std::size_t i = count; i < found.size(); ++i)
-        note(found[i], before.point, false);
+    add_bounds_before(found, before);
     older_ = tests;
     older_arclength_ = from;
     sort_by_place(found);
@@ -62,8 +59,7 @@ std::vector<SpecialPoint> PointLocator::locate_all(const DescribedPoint& before)
 
 /// Sorts points by arclength; a point on a bound comes before the bound, which ends the branch.
 void PointLocator::sort_by_place(std::vector<SpecialPoint>& found) const {
-    const Continuation& continuation = state_->continuation();
-    const double length = continuation.point().arclength - continuation.previous().arclength;
+    const double length = state_->last_step().length;
     const auto place = [&](const SpecialPoint& special) {
         return special.arclength + (special.type == PointType::bound ? on_bound * length : 0);
     };
@@ -117,7 +113,8 @@ void PointLocator::note(SpecialPoint& special, const BranchPoint& before, bool s
 }
 
 /// Adds bounds that the branch crosses before a found point and crosses back within the same step.
-void PointLocator::add_bounds_before(std::vector<SpecialPoint>& found, const std::vector<BranchTest>& tests) {
+void PointLocator::add_bounds_before(std::vector<SpecialPoint>& found, const DescribedPoint& before) {
+    const std::vector<BranchTest>& tests = before.tests;
     const LastStep step = state_->last_step();
     const std::vector<SpecialPoint> all = found;
     for (const SpecialPoint& one : all) {
@@ -134,8 +131,10 @@ void PointLocator::add_bounds_before(std::vector<SpecialPoint>& found, const std
                 continue;
             const double value = there[bound++].value;
             if (tests[i].value > 0 && value < 0)
-                if (auto special = locate(i, {0, tests[i].value}, {step.fraction(one.arclength), value}))
+                if (auto special = locate(i, {0, tests[i].value}, {step.fraction(one.arclength), value})) {
+                    note(*special, before.point, false);
                     found.push_back(std::move(*special));
+                }
         }
     }
 }

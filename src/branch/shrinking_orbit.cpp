@@ -41,7 +41,7 @@ std::string surface_of(const Model& model, const Orbit& orbit) {
     return "";
 }
 
-/// @param off error of the parameter
+/// @param error of the parameter
 SpecialPoint hopf_at(BranchState& state, const BranchPoint& there, double arclength, double error) {
     SpecialPoint special = special_of_type(PointType::hopf, there);
     special.arclength = arclength;

@@ -21,6 +21,26 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 
 } // namespace
 
+double ContinuationProblem::product(std::span<const double> a, std::span<const double> b) const {
+    const auto scales = this->scales(), weights = this->weights();
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        sum += a[i] / scales[i] * (b[i] / scales[i]) * (weights.empty() ? 1 : weights[i]);
+    return sum;
+}
+
+double ContinuationProblem::length_of(std::span<const double> direction) const {
+    return std::sqrt(product(direction, direction));
+}
+
+std::vector<double> ContinuationProblem::row_of(std::span<const double> direction) const {
+    const auto scales = this->scales(), weights = this->weights();
+    std::vector<double> row(direction.size());
+    for (std::size_t i = 0; i < direction.size(); ++i)
+        row[i] = direction[i] / (scales[i] * scales[i]) * (weights.empty() ? 1 : weights[i]);
+    return row;
+}
+
 DenseProblem::DenseProblem(std::size_t unknowns, Map residuals, Map jacobian, std::vector<double> scales)
     : unknowns_(unknowns), residuals_(std::move(residuals)), jacobian_(std::move(jacobian)),
       scales_(std::move(scales)) {
