@@ -29,12 +29,6 @@ std::size_t place_of(const OrbitEquations& equations, ParameterId parameter) {
     return equations.layout().parameter(static_cast<std::size_t>(which));
 }
 
-/// Returns the change of a varying parameter over the last step.
-double length_of_step(BranchState& state, ParameterId parameter) {
-    const std::size_t place = place_of(state.problem().equations(), parameter);
-    return std::abs(state.continuation().point().u[place] - state.continuation().previous().u[place]);
-}
-
 } // namespace
 
 std::vector<BranchTest> tests_of_bounds(const BranchSettings& settings, std::span<const double> parameters,
@@ -83,8 +77,10 @@ bool confirm_bound(BranchState& state, SpecialPoint& special, const BranchTest& 
     // Sets the parameter exactly to the bound: round-off, or the uncertainty of a nearby crossing, would leave it on
     // either side.
     constexpr double uncertain = 1e-8; // share of the step
+    const std::size_t place = place_of(state.problem().equations(), bounds.parameter);
+    const double step = std::abs(state.continuation().point().u[place] - state.continuation().previous().u[place]);
     for (const auto& bound : {bounds.least, bounds.greatest})
-        if (bound && std::abs(value - *bound) < uncertain * length_of_step(state, bounds.parameter))
+        if (bound && std::abs(value - *bound) < uncertain * step)
             value = *bound;
     special.parameter = special.solution.orbit.parameters[settings.parameter.place()];
     special.detail =

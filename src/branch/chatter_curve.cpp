@@ -166,14 +166,9 @@ ChatterCurve::ChatterCurve(ChatterCurve&&) noexcept = default;
 void ChatterCurve::start(int direction) {
     constexpr double first_length = 0.25;
     State& state = *state_;
-    state.here = state.first;
-    state.before.reset();
+    state = State(state.plane, state.event, state.first);
     state.direction = {direction < 0 ? -1.0 : 1.0, 0};
     state.length = first_length;
-    state.length_before = 1;
-    state.made = 0;
-    state.interrupted = false;
-    state.ending.clear();
     if (state.plane.is_on_bound(0, state.here.orbit, state.direction[0]))
         state.report_bound(0);
 }

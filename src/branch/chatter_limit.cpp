@@ -65,15 +65,11 @@ Extrapolated extrapolate(std::vector<double> values, std::span<const double> fac
     return best;
 }
 
-bool is_touch_of_same_event(const SpecialPoint& one, const SpecialPoint& other) {
-    return one.type == PointType::grazing && !one.at_end && one.event == other.event;
-}
-
 void require_ladder(std::span<const SpecialPoint> grazings) {
     if (grazings.size() < 2)
         throw InputError("a ladder of fewer than two grazings has no limit", "go on to the next grazing");
     for (const SpecialPoint& one : grazings)
-        if (!is_touch_of_same_event(one, grazings.front()))
+        if (one.type != PointType::grazing || one.at_end || one.event != grazings.front().event)
             throw InputError("the points of a ladder are not all touches of one event",
                              "give grazings, each with one contact more than the one before");
 }

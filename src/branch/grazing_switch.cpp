@@ -321,8 +321,7 @@ BranchStart with_one_contact_fewer(const System& system, const SpecialPoint& poi
     trial.stop_when_unphysical = false;
     OrbitDirection direction;
     for (const int sign : {1, -1}) {
-        const Simulation here(system, {}, {}, integration(settings.orbit.tolerance));
-        OrbitProblem problem(here, solution.orbit, settings.parameter);
+        OrbitProblem problem(simulation, solution.orbit, settings.parameter);
         const auto tangent = problem.tangent_at(solution.orbit, sign);
         if (!tangent)
             fail("the branch has a fold there");

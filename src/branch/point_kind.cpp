@@ -29,15 +29,8 @@ constexpr unsigned changes = 1, limits = 2, has_bifurcating_branch = 4, may_stop
 constexpr PointKind kind(PointType type, std::string_view short_name, std::string_view name, unsigned properties = 0,
                          int mark = 0) {
     const auto has = [&](unsigned property) { return (properties & property) != 0; };
-    return {.type = type,
-            .short_name = short_name,
-            .name = name,
-            .changes = has(changes),
-            .limits = has(limits),
-            .has_bifurcating_branch = has(has_bifurcating_branch),
-            .may_stop = has(may_stop),
-            .may_be_kept = has(may_be_kept),
-            .mark = mark};
+    return {type,          short_name,       name, has(changes), has(limits), has(has_bifurcating_branch),
+            has(may_stop), has(may_be_kept), mark};
 }
 
 /// The table of all kinds, in the order of PointType; functions that a kind does not have stay null.

@@ -107,7 +107,13 @@ void PointLocator::add_missed(std::vector<SpecialPoint>& found, const DescribedP
 void PointLocator::note(SpecialPoint& special, const BranchPoint& before, bool singular) {
     special.bracket = std::minmax(before.parameter, here_->point.parameter);
     special.step = here_->point.step;
-    accept_limit(special, before.solution.certificate.admissible);
+    // A limit point is admissible if orbits on one side are: at the limit round-off would decide.
+    Certificate& certificate = special.solution.certificate;
+    if (rank(special) >= 0 && !certificate.admissible &&
+        (before.solution.certificate.admissible || here_->point.solution.certificate.admissible)) {
+        certificate.admissible = true;
+        certificate.reason.clear();
+    }
     if (!singular)
         special.solution.error = state_->error_of(special.solution.orbit, special.tangent);
 }
@@ -164,16 +170,6 @@ bool PointLocator::misses_bound(const std::vector<SpecialPoint>& found, const De
             return true;
     }
     return is_beyond_bounds(here_->tests);
-}
-
-/// Marks a limit point as admissible if orbits on one side are: at the limit round-off would decide.
-void PointLocator::accept_limit(SpecialPoint& special, bool was_admissible) const {
-    Certificate& certificate = special.solution.certificate;
-    if (rank(special) < 0 || certificate.admissible)
-        return;
-    certificate.admissible = was_admissible || here_->point.solution.certificate.admissible;
-    if (certificate.admissible)
-        certificate.reason.clear();
 }
 
 /// Returns the parts of the last step in which a test changes its sign.

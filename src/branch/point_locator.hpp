@@ -27,7 +27,6 @@ public:
     void forget() { older_.clear(); }
 
 private:
-    void accept_limit(SpecialPoint& special, bool was_admissible) const;
     std::vector<std::pair<TestValue, TestValue>> brackets_of(std::size_t test, double before);
     std::optional<SpecialPoint> locate(std::size_t test, const TestValue& low, const TestValue& high);
     std::optional<SpecialPoint> locate_zero(std::size_t test, const TestValue& begin, const TestValue& end,

@@ -228,10 +228,6 @@ BranchStart with_events_reordered(const System& system, const SpecialPoint& poin
     const Simulation simulation(system, {}, {}, integration(settings.orbit.tolerance));
     const Orbit& orbit = point.solution.orbit;
     std::string why = "the branch's direction is not known";
-    const auto remember = [&why](const std::string& reason) {
-        if (!reason.empty())
-            why = reason;
-    };
     OrbitProblem problem(simulation, orbit, settings.parameter);
     const std::vector<double> u = problem.unknowns_of(orbit);
     if (!point.tangent.is_empty() && problem.evaluate(u)) {
@@ -244,13 +240,14 @@ BranchStart with_events_reordered(const System& system, const SpecialPoint& poin
                     const Orbit beyond = problem.equations().orbit_of(there);
                     std::string reason;
                     const auto candidate = followed_motion(simulation, beyond, periods, reason);
-                    remember(reason);
-                    if (!candidate || have_same_segments(*candidate, orbit))
-                        continue;
-                    if (auto start = start_from(simulation, *candidate, settings,
-                                                orbit.parameters[settings.parameter.place()], reason))
+                    const auto start = candidate && !have_same_segments(*candidate, orbit)
+                                           ? start_from(simulation, *candidate, settings,
+                                                        orbit.parameters[settings.parameter.place()], reason)
+                                           : std::nullopt;
+                    if (start)
                         return *start;
-                    remember(reason);
+                    if (!reason.empty())
+                        why = reason;
                 }
     }
     throw InputError(fmt::format("no orbit was found beyond the point: {}", why), "the branch may end here");

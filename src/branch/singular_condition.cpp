@@ -13,12 +13,12 @@ namespace graze {
 namespace {
 
 using Multipliers = std::vector<std::complex<double>>;
+using Pair = std::pair<std::complex<double>, std::complex<double>>;
 
 /// Returns the pair, conjugate or both real, whose product and sum are nearest to the given ones. Products are compared
 /// by their ratio, since that of the kept pair is constant, sums by their difference.
-std::optional<std::pair<std::complex<double>, std::complex<double>>> pair_near(const Multipliers& all, double sum,
-                                                                               double product) {
-    std::optional<std::pair<std::complex<double>, std::complex<double>>> result;
+std::optional<Pair> pair_near(const Multipliers& all, double sum, double product) {
+    std::optional<Pair> result;
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < all.size(); ++i)
         for (std::size_t j = i + 1; j < all.size(); ++j) {
@@ -33,9 +33,9 @@ std::optional<std::pair<std::complex<double>, std::complex<double>>> pair_near(c
 }
 
 /// Returns the complex pair nearest to the unit circle, or two nearly equal real multipliers there if these are nearer.
-std::optional<std::pair<std::complex<double>, std::complex<double>>> pair_to_keep(const Multipliers& all) {
+std::optional<Pair> pair_to_keep(const Multipliers& all) {
     constexpr double meeting = 0.01; // distance from 1 or -1: double multipliers differ by the square root of round-off
-    std::optional<std::pair<std::complex<double>, std::complex<double>>> result;
+    std::optional<Pair> result;
     double nearest = std::numeric_limits<double>::infinity();
     const auto note = [&](std::complex<double> one, std::complex<double> other) {
         const double off = std::abs(std::log(std::abs(one * other)));

@@ -66,7 +66,9 @@ struct DeviceSolver {
     std::function<void(std::size_t)> progress = turns.taking(settings.progress);
     ThreadTeam team{};
 
-    void solve_all(Yield& result) {
+    Yield solve_all() {
+        Yield result;
+        result.nominal = nominal.value();
         result.devices.resize(devices);
         problems.resize(devices);
         constexpr std::size_t enough = 32; // number of devices that justifies a thread
@@ -85,6 +87,7 @@ struct DeviceSolver {
         result.problems.assign(counts.begin(), counts.end());
         std::stable_sort(result.problems.begin(), result.problems.end(),
                          [](const auto& a, const auto& b) { return a.second > b.second; });
+        return result;
     }
 
     LocatedValue make_solver() const { return {system, point, control, others, settings.solver}; }
@@ -308,9 +311,7 @@ Yield yield_of(const System& system, const SpecialPoint& point, ParameterId cont
         return changes;
     };
     DeviceSolver solver{system, point, control, others, settings.devices, drawn_changes, settings};
-    Yield result;
-    result.nominal = solver.nominal.value();
-    solver.solve_all(result);
+    Yield result = solver.solve_all();
     set_contributions(result, solver.nominal, settings.tolerances);
     add_statistics(result, settings);
     return result;
@@ -338,9 +339,7 @@ Yield yield_of(const System& system, const SpecialPoint& point, ParameterId cont
     };
     DeviceSolver solver{system,     point,    control,          devices.parameters, devices.values.size(),
                         changes_of, settings, std::move(solved)};
-    Yield result;
-    result.nominal = solver.nominal.value();
-    solver.solve_all(result);
+    Yield result = solver.solve_all();
     result.linear_deviation = deviation_of_linear(result);
     add_statistics(result, settings);
     return result;
