@@ -52,11 +52,11 @@ std::vector<BranchStart> along_null_vector(const System& system, Orbit orbit, co
     };
     if (!problem.evaluate(problem.unknowns_of(orbit)))
         fail();
-    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(static_cast<Eigen::Index>(problem.unknowns()));
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(index(problem.unknowns()));
     if (!along.is_empty())
         row = vector_of(problem.row_of(problem.unknowns_of(along))).transpose();
     else
-        row[static_cast<Eigen::Index>(problem.parameter_place())] = 1;
+        row[index(problem.parameter_place())] = 1;
     Eigen::VectorXd vector;
     if (!problem.equations().null_vector(problem.evaluation(), row, vector))
         fail();
@@ -86,7 +86,7 @@ bool OtherBranchSearch::next() {
         if (reaches_other(direction_, factors[tried_++] * distance_))
             return true;
     OrbitProblem& problem = state_.problem();
-    for (; leaves_zero_ && tried_ <= 2 * half_decades;) {
+    while (leaves_zero_ && tried_ <= 2 * half_decades) {
         const double factor = std::pow(10, 0.5 * (tried_++ - half_decades)) * distance_ / length_;
         const Eigen::VectorXd move = factor * vector_of(direction_);
         problem.equations().set_scales(vector_of(u_) + move);
