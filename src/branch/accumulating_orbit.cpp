@@ -2,6 +2,7 @@
 
 #include "base/linear_systems.hpp"
 #include "base/special_numbers.hpp"
+#include "branch/inserted_contact.hpp"
 #include "flow/lie_derivative.hpp"
 #include "orbit/eigen_index.hpp"
 #include "orbit/newton.hpp"
@@ -28,14 +29,6 @@ constexpr double finest = 1e-13;
 constexpr double blind_share = 1e-3;
 /// Share of the period for which the motion is followed: contacts of a first guess may come late.
 constexpr double followed_share = 1.1;
-
-VectorXd vector_of(const std::vector<double>& values) {
-    return Eigen::Map<const VectorXd>(values.data(), index(values.size()));
-}
-
-std::vector<double> numbers_of(const VectorXd& values) {
-    return {values.begin(), values.end()};
-}
 
 } // namespace
 
@@ -222,6 +215,17 @@ bool AccumulatingOrbit::follow(std::size_t count, Remainder& remainder) {
            find_accumulation(vector_of(before), after, remainder);
 }
 
+/// Returns the scaled differences between end and start; 0 for drifting states.
+VectorXd AccumulatingOrbit::gaps(const Remainder& remainder) const {
+    VectorXd result = remainder.state - remainder.start;
+    for (Eigen::Index i = 0; i < result.size(); ++i) {
+        const double period = periods_[static_cast<std::size_t>(i)];
+        const double gap = period > 0 ? std::remainder(result[i], period) : result[i];
+        result[i] = is_closed_[static_cast<std::size_t>(i)] ? gap / scales_[i] : 0;
+    }
+    return result;
+}
+
 bool AccumulatingOrbit::residuals(const VectorXd& unknowns, VectorXd& values, Remainder& remainder) {
     const VectorXd kept = unknowns_;
     unknowns_ = unknowns;
@@ -232,14 +236,7 @@ bool AccumulatingOrbit::residuals(const VectorXd& unknowns, VectorXd& values, Re
     const auto n = unknowns.size() - 1;
     values = VectorXd::Zero(3 + n + 1);
     values.head(3) = heights(unknowns.head(n)).head(3).cwiseQuotient(rows_);
-    for (Eigen::Index i = 0; i < n; ++i) {
-        double gap = remainder.state[i] - remainder.start[i];
-        const double period = periods_[static_cast<std::size_t>(i)];
-        if (period > 0)
-            gap = std::remainder(gap, period);
-        if (is_closed_[static_cast<std::size_t>(i)])
-            values[3 + i] = gap / scales_[i];
-    }
+    values.segment(3, n) = gaps(remainder);
     values[3 + n] = remainder.excess;
     return values.allFinite();
 }
@@ -336,7 +333,6 @@ void AccumulatingOrbit::add_contacts(std::size_t more) {
 
 std::optional<Orbit> AccumulatingOrbit::orbit_for_output(double& gap) {
     constexpr double little = 1e-4; // share of the period
-    const auto n = parameter_place();
     Remainder remainder;
     std::optional<Orbit> result;
     unknowns_ = solution_;
@@ -348,16 +344,9 @@ std::optional<Orbit> AccumulatingOrbit::orbit_for_output(double& gap) {
                     taken(remainder.motion.durations), like_.symmetry};
         const VectorXd after = vector_of(remainder.motion.starts[remainder.segments]);
         // One last segment stands for all remaining contacts: the orbit ends where they accumulate.
-        orbit.signature.push_back(orbit.signature[remainder.contact]);
-        orbit.starts.push_back(remainder.motion.starts[remainder.segments]);
-        orbit.durations.push_back(remainder.left);
-        gap = 0;
-        for (Eigen::Index i = 0; i < n; ++i) {
-            const double period = periods_[static_cast<std::size_t>(i)],
-                         apart = remainder.state[i] - remainder.start[i];
-            if (is_closed_[static_cast<std::size_t>(i)])
-                gap = std::max(gap, std::abs(period > 0 ? std::remainder(apart, period) : apart) / scales_[i]);
-        }
+        append(orbit, Segment(orbit.signature[remainder.contact]), remainder.motion.starts[remainder.segments],
+               remainder.left);
+        gap = gaps(remainder).cwiseAbs().maxCoeff();
         result = orbit;
         if (-heights(after)[2] < little * orbit.return_time() * heights(after)[3])
             break;

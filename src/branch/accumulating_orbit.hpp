@@ -54,9 +54,7 @@ private:
         double uncertainty = 0; ///< uncertainty of the excess due to round-off of heights
         SelfSimilarContacts contacts;
         FollowedMotion motion;
-        std::size_t contact = 0,
-                    /// Index of the last simulated contact; number of segments up to the return to the mode.
-            segments = 0;
+        std::size_t contact = 0, segments = 0; ///< index of the last contact; number up to the return to the mode
     };
     Eigen::Index parameter_place() const { return scales_.size() - 1; }
     std::vector<double> inputs(const Eigen::VectorXd& state) const;
@@ -70,6 +68,7 @@ private:
     bool compare_with_self_similar(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
                                    Remainder& remainder) const;
     bool find_accumulation(const Eigen::VectorXd& before, const Eigen::VectorXd& after, Remainder& remainder) const;
+    Eigen::VectorXd gaps(const Remainder& remainder) const;
     bool residuals(const Eigen::VectorXd& unknowns, Eigen::VectorXd& values, Remainder& remainder);
     bool differentiate(const Eigen::VectorXd& values);
     bool renew_excess(const Eigen::VectorXd& values);

@@ -22,6 +22,13 @@ FreeBounds bounds_of(const BranchSettings& settings, const BranchTest& test) {
                      : FreeBounds{settings.parameter, settings.least, settings.greatest};
 }
 
+/// Returns the index of a varying parameter among the unknowns.
+std::size_t place_of(const OrbitEquations& equations, ParameterId parameter) {
+    const std::vector<ParameterId>& free = equations.free();
+    const auto which = std::find(free.begin(), free.end(), parameter) - free.begin();
+    return equations.layout().parameter(static_cast<std::size_t>(which));
+}
+
 } // namespace
 
 std::vector<BranchTest> tests_of_bounds(const BranchSettings& settings, std::span<const double> parameters,
@@ -48,29 +55,15 @@ std::vector<BranchTest> tests_of_bounds(const BranchSettings& settings, std::spa
 }
 
 void test_bounds(const TestedPoint& point, std::vector<BranchTest>& tests) {
-    const std::vector<ParameterId>& free = point.equations.free();
     for (BranchTest test : tests_of_bounds(point.settings, point.at.parameters, point.monitors)) {
         if (!test.monitor) {
             const ParameterId one = bounds_of(point.settings, test).parameter;
-            const auto which = static_cast<std::size_t>(std::find(free.begin(), free.end(), one) - free.begin());
-            test.noise = std::min(test.noise, round_off_of_bound *
-                                                  point.at.scales[index(point.equations.layout().parameter(which))]);
+            test.noise =
+                std::min(test.noise, round_off_of_bound * point.at.scales[index(place_of(point.equations, one))]);
         }
         tests.push_back(test);
     }
 }
-
-namespace {
-
-/// Returns the change of a varying parameter over the last step.
-double length_of_step(BranchState& state, ParameterId parameter) {
-    const std::vector<ParameterId>& free = state.problem().equations().free();
-    const auto which = static_cast<std::size_t>(std::find(free.begin(), free.end(), parameter) - free.begin());
-    const std::size_t place = state.problem().equations().layout().parameter(which);
-    return std::abs(state.continuation().point().u[place] - state.continuation().previous().u[place]);
-}
-
-} // namespace
 
 bool confirm_bound(BranchState& state, SpecialPoint& special, const BranchTest& test) {
     const BranchSettings& settings = state.settings();
@@ -84,8 +77,10 @@ bool confirm_bound(BranchState& state, SpecialPoint& special, const BranchTest& 
     // Sets the parameter exactly to the bound: round-off, or the uncertainty of a nearby crossing, would leave it on
     // either side.
     constexpr double uncertain = 1e-8; // share of the step
+    const std::size_t place = place_of(state.problem().equations(), bounds.parameter);
+    const double step = std::abs(state.continuation().point().u[place] - state.continuation().previous().u[place]);
     for (const auto& bound : {bounds.least, bounds.greatest})
-        if (bound && std::abs(value - *bound) < uncertain * length_of_step(state, bounds.parameter))
+        if (bound && std::abs(value - *bound) < uncertain * step)
             value = *bound;
     special.parameter = special.solution.orbit.parameters[settings.parameter.place()];
     special.detail =
@@ -115,14 +110,25 @@ std::string beyond_in_words(const BranchState& state, const BranchPoint& point) 
     return "";
 }
 
+bool leads_beyond_bounds(BranchState& state) {
+    const BranchSettings& settings = state.settings();
+    const ContinuationPoint& begun = state.continuation().point();
+    const auto leaves = [&](ParameterId parameter, const auto& least, const auto& greatest) {
+        const std::size_t place = place_of(state.problem().equations(), parameter);
+        const double rise = begun.tangent[place], value = begun.u[place];
+        return (least && (value < *least || (rise < 0 && value <= *least))) ||
+               (greatest && (value > *greatest || (rise > 0 && value >= *greatest)));
+    };
+    return leaves(settings.parameter, settings.least, settings.greatest) ||
+           std::any_of(settings.free_bounds.begin(), settings.free_bounds.end(),
+                       [&](const FreeBounds& one) { return leaves(one.parameter, one.least, one.greatest); });
+}
+
 void put_on_bounds(const BranchSettings& settings, Orbit& orbit) {
     const auto put = [&](ParameterId parameter, const std::optional<double>& least,
                          const std::optional<double>& greatest) {
         double& value = orbit.parameters[parameter.place()];
-        if (least)
-            value = std::max(value, *least);
-        if (greatest)
-            value = std::min(value, *greatest);
+        value = std::min(std::max(value, least.value_or(value)), greatest.value_or(value));
     };
     put(settings.parameter, settings.least, settings.greatest);
     for (const FreeBounds& bounds : settings.free_bounds)

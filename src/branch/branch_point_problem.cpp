@@ -132,7 +132,7 @@ bool BranchPointProblem::solve(std::span<const double> row, double right, bool h
         broken_ = "the two branches separate there: no property of the model keeps them together";
         return false;
     }
-    Eigen::Map<VectorXd>(step.data(), columns) = solution.head(columns).cwiseProduct(units);
+    entries_of(step) = solution.head(columns).cwiseProduct(units);
     return true;
 }
 

@@ -48,7 +48,7 @@ void BranchSettings::validate(const Model& model) const {
         throw InputError(fmt::format("points of type {} ({}) cannot be followed as a curve", short_name(kept->type),
                                      name_of(kept->type)),
                          "choose another point, or hold a monitor that says what it is");
-    if (kept_too && (*kept_too != PointType::sensitivity || !kept || kept->type != PointType::grazing || kept->at_end))
+    if (kept_too && (*kept_too != PointType::sensitivity || !keeps_touch(*this)))
         throw InputError(fmt::format("the condition of a point of type {} cannot be held besides that of another",
                                      short_name(*kept_too)),
                          "hold a vanishing sensitivity (VS) besides a touch within an arc (GR)");
@@ -87,31 +87,18 @@ bool ends_at_point(BranchOutcome outcome) {
 }
 
 std::string_view name_of(BranchOutcome outcome) {
-    switch (outcome) {
-    case BranchOutcome::steps:
-        return "all steps made";
-    case BranchOutcome::bound:
-        return "bound reached";
-    case BranchOutcome::stopped:
-        return "stopped";
-    case BranchOutcome::unphysical:
-        return "unphysical beyond";
-    case BranchOutcome::closed:
-        return "closed";
-    case BranchOutcome::returned:
-        return "returned";
-    case BranchOutcome::shrunk:
-        return "shrinks to an equilibrium";
-    case BranchOutcome::no_convergence:
-        return "no convergence";
-    case BranchOutcome::undefined:
-        return "undefined beyond";
-    case BranchOutcome::too_long:
-        return "too much work";
-    case BranchOutcome::no_start:
-        return "no start";
-    }
-    return "";
+    constexpr std::string_view names[] = {"all steps made",
+                                          "bound reached",
+                                          "stopped",
+                                          "unphysical beyond",
+                                          "closed",
+                                          "returned",
+                                          "shrinks to an equilibrium",
+                                          "no convergence",
+                                          "undefined beyond",
+                                          "too much work",
+                                          "no start"};
+    return names[static_cast<std::size_t>(outcome)];
 }
 
 } // namespace graze

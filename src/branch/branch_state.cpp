@@ -1,5 +1,6 @@
 #include "branch/branch_state.hpp"
 
+#include "branch/bounds.hpp"
 #include "branch/branch_point_problem.hpp"
 #include "branch/orbit_quantity.hpp"
 #include "branch/sensitivity_condition.hpp"
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 namespace graze {
 
@@ -29,7 +29,7 @@ BranchState::BranchState(const System& system, const Orbit& candidate, const Bra
     const Model& model = system.model();
     settings_.validate(model);
     validate_orbit(model, candidate);
-    if (is_outside(candidate.parameters[settings.parameter.place()]))
+    if (is_outside(settings, candidate.parameters[settings.parameter.place()]))
         throw InputError(fmt::format("the orbit's {} = {} lies outside the branch's bounds",
                                      model.independent_parameters()[settings.parameter.place()],
                                      candidate.parameters[settings.parameter.place()]),
@@ -39,21 +39,16 @@ BranchState::BranchState(const System& system, const Orbit& candidate, const Bra
             std::make_unique<OrbitMonitors>(system, candidate.signature, settings.monitors, settings.orbit.tolerance);
     if (keeps_branch_point() && settings.free.size() > 1)
         throw InputError("monitors cannot be fixed along a curve of branch points", "leave `fixed` out");
-    hold(candidate);
+    // Fixed monitors without a value are held at that of the candidate, also in later problems of the branch.
+    const std::vector<double> values =
+        monitors_ && !settings.free.empty() ? (*monitors_)(candidate) : std::vector<double>();
+    for (std::size_t m = 0; m < values.size(); ++m)
+        if (settings_.monitors[m].fixed && !settings_.monitors[m].held)
+            settings_.monitors[m].held = values[m];
     if (!make_problem(candidate))
         throw InputError(
             fmt::format("the condition of a point of type {} cannot be held there", short_name(settings.kept->type)),
             "choose another point");
-}
-
-/// Sets the held values of fixed monitors without one to those of the candidate, also for later problems of the branch.
-void BranchState::hold(const Orbit& candidate) {
-    if (settings_.free.empty() || !monitors_)
-        return;
-    const std::vector<double> values = (*monitors_)(candidate);
-    for (std::size_t m = 0; m < values.size(); ++m)
-        if (settings_.monitors[m].fixed && !settings_.monitors[m].held)
-            settings_.monitors[m].held = values[m];
 }
 
 /// Makes the equations and the continuation for an orbit. @return false where the kept point has no condition
@@ -113,41 +108,28 @@ std::size_t BranchState::held_monitors() const {
     return settings_.free.size() - (settings_.kept ? 1U : 0U) - (settings_.kept_too ? 1U : 0U);
 }
 
-std::optional<HeldLimit> BranchState::held_limit() const {
-    return settings_.kept ? held_limit_of(*settings_.kept) : std::nullopt;
-}
-
 /// Updates the time of the kept touch: that of the minimum of its event function that is nearest to zero.
 void BranchState::update_kept_time(const OrbitSolution& solution) {
-    const auto held = held_limit();
+    const auto held = held_limit_of(settings_);
     if (!held || held->kind != HeldLimit::Kind::touch)
         return;
     SpecialPoint& kept = *settings_.kept;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const OrbitMinimum& minimum : solution.certificate.minima)
-        if (minimum.segment == kept.segment && minimum.event == kept.event && std::abs(minimum.value) < nearest) {
-            nearest = std::abs(minimum.value);
-            kept.time = minimum.time;
-        }
+    if (const auto touch = touch_in(solution.certificate, kept.segment, kept.event))
+        kept.time = touch->time;
 }
 
 /// Finds the kept touch in an orbit of another signature that nearly touches.
 bool BranchState::find_touch(const Orbit& orbit) {
-    constexpr double near = 1e-2; // share of the function's size along the arc
     OrbitProblem problem(simulation_, orbit, settings_);
     if (!problem.evaluate(problem.unknowns_of(orbit)))
         return false;
     SpecialPoint& kept = *settings_.kept;
-    double nearest = near;
-    bool found = false;
-    for (const OrbitMinimum& minimum : certify(problem.equations(), problem.evaluation()).minima)
-        if (minimum.event == kept.event && std::abs(minimum.value) < nearest * minimum.size) {
-            nearest = std::abs(minimum.value) / minimum.size;
-            kept.segment = minimum.segment;
-            kept.time = minimum.time;
-            found = true;
-        }
-    return found;
+    const auto touch = nearest_touch(certify(problem.equations(), problem.evaluation()), kept.event);
+    if (touch) {
+        kept.segment = touch->segment;
+        kept.time = touch->time;
+    }
+    return touch.has_value();
 }
 
 bool BranchState::keep_image_of_touch(const Orbit& orbit) {
@@ -182,26 +164,31 @@ LastStep BranchState::last_step() const {
     return {from, arclength(continuation_->point().arclength) - from};
 }
 
+double BranchState::distance_from(std::span<const double> u) const {
+    return (vector_of(u) - vector_of(continuation_->point().u)).cwiseQuotient(vector_of(problem_->scales())).norm();
+}
+
+std::vector<double> BranchState::rates_at_sections() {
+    problem_->evaluate(continuation_->point().u);
+    return passing_rates(problem_->equations(), problem_->evaluation());
+}
+
 std::vector<double> BranchState::rates_at(const Orbit& orbit, std::size_t segment) const {
     std::vector<double> inputs = orbit.starts[segment];
     inputs.insert(inputs.end(), orbit.parameters.begin(), orbit.parameters.end());
     return system().mode(orbit.signature[segment].mode).rates(inputs);
 }
 
-bool BranchState::is_outside(double parameter) const {
-    return (settings_.least && parameter < *settings_.least) || (settings_.greatest && parameter > *settings_.greatest);
-}
-
-bool BranchState::describe(const ContinuationPoint& at, BranchPoint& result, std::vector<BranchTest>& tests) {
+std::optional<DescribedPoint> BranchState::describe(const ContinuationPoint& at) {
     OrbitEquations& equations = problem_->equations();
     if (!problem_->evaluate(at.u))
-        return false;
+        return std::nullopt;
     const OrbitEvaluation& evaluation = problem_->evaluation();
-    result.solution = {};
+    BranchPoint result;
     result.solution.outcome = OrbitOutcome::converged;
     result.solution.iterations = at.iterations;
     result.solution.orbit = problem_->orbit_of(at.u);
-    describe_orbit(equations, evaluation, result.solution, held_limit());
+    describe_orbit(equations, evaluation, result.solution, held_limit_of(settings_));
     update_kept_time(result.solution);
     result.parameter = at.u[problem_->parameter_place()];
     result.tangent = problem_->direction_of(at.tangent);
@@ -213,9 +200,14 @@ bool BranchState::describe(const ContinuationPoint& at, BranchPoint& result, std
     std::vector<Degeneracy> degeneracies;
     if (settings_.kept && !keeps_branch_point())
         degeneracies = held_.back()->degeneracies(equations, evaluation);
-    tests = branch_tests(
+    std::vector<BranchTest> tests = branch_tests(
         {equations, evaluation, result.solution, at.tangent, at.determinant, result.monitors, settings_, degeneracies});
-    return true;
+    return DescribedPoint{std::move(result), std::move(tests)};
+}
+
+std::optional<DescribedPoint> BranchState::describe_between(double fraction) {
+    ContinuationPoint at;
+    return continuation_->between(fraction, at) ? describe(at) : std::nullopt;
 }
 
 std::optional<double> BranchState::error_of(const Orbit& orbit, const OrbitDirection& tangent) {
@@ -230,9 +222,7 @@ std::optional<double> BranchState::error_of(const Orbit& orbit, const OrbitDirec
     if (!problem.evaluate(problem.unknowns_of(orbit)) ||
         !problem.solve(problem.row_of(problem.unknowns_of(tangent)), 0, false, step, nullptr))
         return std::nullopt;
-    double error = 0;
-    for (std::size_t i = 0; i < step.size(); ++i)
-        error = std::max(error, std::abs(step[i]) / problem.scales()[i]);
+    const double error = vector_of(step).cwiseQuotient(vector_of(problem.scales())).cwiseAbs().maxCoeff();
     return std::isfinite(error) ? std::optional(error) : std::nullopt;
 }
 
@@ -330,10 +320,8 @@ bool BranchState::restart(const Orbit& orbit, const OrbitDirection& direction, d
 /// True when sections must be kept: monitors refer to starts or ends of segments, or the kept point lies in a segment
 /// that would be merged.
 bool BranchState::needs_sections(const Orbit& orbit, const Orbit& without) const {
-    const bool taken = std::any_of(settings_.monitors.begin(), settings_.monitors.end(), [](const Monitor& monitor) {
-        return !monitor.segment.empty() || monitor.kind == Monitor::Kind::value || monitor.kind == Monitor::Kind::start;
-    });
-    return taken || (settings_.kept && kind_of(settings_.kept->type).limits && orbit.segments() != without.segments());
+    return refer_to_segments(settings_.monitors) ||
+           (settings_.kept && kind_of(settings_.kept->type).limits && orbit.segments() != without.segments());
 }
 
 bool BranchState::leave_sections(const BranchPoint& from) {
@@ -386,7 +374,7 @@ bool BranchState::continue_curve(const Orbit& guess, int direction, double arcle
         monitors_->set_signature(guess.signature);
     const double length = continuation_->next_step();
     arclength_ = arclength;
-    const auto held = held_limit();
+    const auto held = held_limit_of(settings_);
     if ((held && held->kind == HeldLimit::Kind::touch && !find_touch(guess)) || !make_problem(guess) ||
         !continuation_->start(problem_->unknowns_of(guess), problem_->parameter_place(), direction))
         return false;

@@ -13,6 +13,12 @@
 
 namespace graze {
 
+/// A point of the branch with all its test functions.
+struct DescribedPoint {
+    BranchPoint point;
+    std::vector<BranchTest> tests;
+};
+
 /// The last step of the continuation, in arclength of the branch.
 struct LastStep {
     double from = 0, length = 0;
@@ -36,12 +42,19 @@ public:
     /// Converts an arclength of the current continuation, which may have been restarted, to one of the branch.
     double arclength(double in_continuation) const { return arclength_ + in_continuation; }
     LastStep last_step() const;
+    /// Returns the orbit at the current point.
+    Orbit orbit() const { return problem_->orbit_of(continuation_->point().u); }
+    /// Returns the distance of unknowns from the current point, in units of their scales.
+    double distance_from(std::span<const double> u) const;
+    /// Returns the rates at which the current orbit crosses its sections.
+    std::vector<double> rates_at_sections();
     /// Returns the vector field at the start of a segment.
     std::vector<double> rates_at(const Orbit& orbit, std::size_t segment) const;
-    bool is_outside(double parameter) const;
 
-    /// Describes a point of the branch with all its test functions. @return false where its equations are not defined
-    bool describe(const ContinuationPoint& at, BranchPoint& result, std::vector<BranchTest>& tests);
+    /// Describes a point of the branch; empty where its equations are not defined.
+    std::optional<DescribedPoint> describe(const ContinuationPoint& at);
+    /// The same at a fraction of the last step; empty also where Newton's method does not converge.
+    std::optional<DescribedPoint> describe_between(double fraction);
     /// Returns the change of an orbit of the branch at a hundredth of the tolerance, relative to the scale of each
     /// unknown. Empty where it is not defined: at branch points, or with additional free parameters.
     std::optional<double> error_of(const Orbit& orbit, const OrbitDirection& tangent);
@@ -70,12 +83,10 @@ public:
     bool keep_image_of_touch(const Orbit& orbit);
 
 private:
-    void hold(const Orbit& candidate);
     void hold_monitors();
     bool keeps_branch_point() const { return settings_.kept && settings_.kept->type == PointType::branch_point; }
     bool hold_kept(const Orbit& orbit);
     std::size_t held_monitors() const;
-    std::optional<HeldLimit> held_limit() const;
     void update_kept_time(const OrbitSolution& solution);
     bool find_touch(const Orbit& orbit);
     bool needs_sections(const Orbit& orbit, const Orbit& without) const;

@@ -1,6 +1,7 @@
 #include "graze/branch/chatter_curve.hpp"
 
 #include "base/special_numbers.hpp"
+#include "branch/bounds.hpp"
 #include "graze/base/input_error.hpp"
 
 #include <fmt/format.h>
@@ -30,15 +31,12 @@ public:
             if (one.parameter == parameters_[1])
                 bounds_[1] = one;
         for (std::size_t k = 0; k < 2; ++k)
-            units_[k] = largest_step(bounds_[k], first.parameters[parameters_[k].place()]);
+            units_[k] = largest_step(bounds_[k], value(k, first));
     }
 
     const BranchSettings& settings() const { return settings_; }
-    Place place_of(const Orbit& orbit) const {
-        return {orbit.parameters[parameters_[0].place()] / units_[0],
-                orbit.parameters[parameters_[1].place()] / units_[1]};
-    }
-    std::size_t place_in_model(std::size_t which) const { return parameters_[which].place(); }
+    Place place_of(const Orbit& orbit) const { return {value(0, orbit) / units_[0], value(1, orbit) / units_[1]}; }
+    double value(std::size_t which, const Orbit& orbit) const { return orbit.parameters[parameters_[which].place()]; }
     std::string name_of(std::size_t which) const {
         return system_.model().independent_parameters()[parameters_[which].place()];
     }
@@ -57,10 +55,10 @@ public:
         if (!reached)
             return std::nullopt;
         const std::size_t other = 1 - held;
-        const double value = reached->limit.orbit.parameters[parameters_[other].place()];
-        if (const double bounded = within(other, value); bounded != value) {
-            const double step = (bounded - here.parameters[parameters_[other].place()]) / units_[other];
-            const double whole = (value - here.parameters[parameters_[other].place()]) / units_[other];
+        const double found = value(other, reached->limit.orbit);
+        if (const double bounded = within(other, found); bounded != found) {
+            const double step = (bounded - value(other, here)) / units_[other];
+            const double whole = (found - value(other, here)) / units_[other];
             Place to_bound{ahead[0] * step / whole, ahead[1] * step / whole};
             to_bound[other] = step;
             reached = hold(other, here, to_bound, before, length_before, why);
@@ -78,9 +76,9 @@ public:
         return limit.direct && why.empty() ? std::optional(std::move(limit)) : std::nullopt;
     }
     bool is_on_bound(std::size_t which, const Orbit& orbit, double direction) const {
-        const double value = orbit.parameters[parameters_[which].place()];
-        return (direction < 0 && bounds_[which].least && value <= *bounds_[which].least) ||
-               (direction > 0 && bounds_[which].greatest && value >= *bounds_[which].greatest);
+        const FreeBounds& bounds = bounds_[which];
+        return (direction < 0 && bounds.least && value(which, orbit) <= *bounds.least) ||
+               (direction > 0 && bounds.greatest && value(which, orbit) >= *bounds.greatest);
     }
 
 private:
@@ -91,17 +89,12 @@ private:
         return step > 0 ? step : share;
     }
     double within(std::size_t which, double value) const {
-        if (bounds_[which].least)
-            value = std::max(value, *bounds_[which].least);
-        if (bounds_[which].greatest)
-            value = std::min(value, *bounds_[which].greatest);
-        return value;
+        return std::min(std::max(value, bounds_[which].least.value_or(value)), bounds_[which].greatest.value_or(value));
     }
     std::optional<Reached> hold(std::size_t held, const Orbit& here, const Place& ahead, const Orbit* before,
                                 double length_before, std::string& why) const {
-        const double from = here.parameters[parameters_[held].place()], wanted = from + ahead[held] * units_[held],
-                     value = within(held, wanted);
-        const double part = wanted == from ? 0 : (value - from) / (wanted - from);
+        const double from = value(held, here), wanted = from + ahead[held] * units_[held];
+        const double fixed = within(held, wanted), part = wanted == from ? 0 : (fixed - from) / (wanted - from);
         Orbit guess = here;
         for (std::size_t k = 0; k < 2; ++k)
             guess.parameters[parameters_[k].place()] += part * ahead[k] * units_[k];
@@ -113,9 +106,9 @@ private:
                 guess.starts[0][i] += share * (periods[i] > 0 ? std::remainder(gain, periods[i]) : gain);
             }
         }
-        guess.parameters[parameters_[held].place()] = value;
+        guess.parameters[parameters_[held].place()] = fixed;
         Reached reached{chatter_limit_near(system_, guess, event_, parameters_[1 - held], settings_.orbit.tolerance),
-                        value == wanted ? std::nullopt : std::optional(held)};
+                        fixed == wanted ? std::nullopt : std::optional(held)};
         why = reached.limit.problem;
         return reached.limit.direct ? std::optional(std::move(reached)) : std::nullopt;
     }
@@ -140,8 +133,7 @@ struct ChatterCurve::State {
         : plane(std::move(in)), event(at), first(std::move(begin)), here(first) {}
 
     void report_bound(std::size_t which) {
-        ending =
-            fmt::format("bound: {} = {:.9g}", plane.name_of(which), here.orbit.parameters[plane.place_in_model(which)]);
+        ending = fmt::format("bound: {} = {:.9g}", plane.name_of(which), plane.value(which, here.orbit));
     }
     /// Attempts a step. @return false when it fails
     bool attempt(std::string& problem);
@@ -174,14 +166,9 @@ ChatterCurve::ChatterCurve(ChatterCurve&&) noexcept = default;
 void ChatterCurve::start(int direction) {
     constexpr double first_length = 0.25;
     State& state = *state_;
-    state.here = state.first;
-    state.before.reset();
+    state = State(state.plane, state.event, state.first);
     state.direction = {direction < 0 ? -1.0 : 1.0, 0};
     state.length = first_length;
-    state.length_before = 1;
-    state.made = 0;
-    state.interrupted = false;
-    state.ending.clear();
     if (state.plane.is_on_bound(0, state.here.orbit, state.direction[0]))
         state.report_bound(0);
 }
@@ -274,7 +261,7 @@ void require_chatter_curve(const Model& model, const SpecialPoint& first, const 
     if (!settings.stop_at.empty())
         throw InputError("it meets no other points", "leave `stop` out");
     const double value = first.solution.orbit.parameters[settings.parameter.place()];
-    if ((settings.least && value < *settings.least) || (settings.greatest && value > *settings.greatest))
+    if (is_outside(settings, value))
         throw InputError(fmt::format("its start, {:.9g}, lies outside of the bounds of '{}'", value,
                                      model.independent_parameters()[settings.parameter.place()]),
                          "give wider bounds in `along`");

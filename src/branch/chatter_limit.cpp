@@ -65,15 +65,11 @@ Extrapolated extrapolate(std::vector<double> values, std::span<const double> fac
     return best;
 }
 
-bool is_touch_of_same_event(const SpecialPoint& one, const SpecialPoint& other) {
-    return one.type == PointType::grazing && !one.at_end && one.event == other.event;
-}
-
 void require_ladder(std::span<const SpecialPoint> grazings) {
     if (grazings.size() < 2)
         throw InputError("a ladder of fewer than two grazings has no limit", "go on to the next grazing");
     for (const SpecialPoint& one : grazings)
-        if (!is_touch_of_same_event(one, grazings.front()))
+        if (one.type != PointType::grazing || one.at_end || one.event != grazings.front().event)
             throw InputError("the points of a ladder are not all touches of one event",
                              "give grazings, each with one contact more than the one before");
 }
@@ -179,10 +175,8 @@ private:
         const std::array factors{first, first * known.times, first * known.times * known.times};
         const Extrapolated result = extrapolate(values_, factors);
         constexpr std::size_t used = 4; // number of values that enter one extrapolated value
-        double noise = 0;
-        for (std::size_t k = noise_.size() - std::min(noise_.size(), used); k < noise_.size(); ++k)
-            noise = std::max(noise, noise_[k]);
-        return {result.value, result.error + result.amplified * noise};
+        const auto first_used = noise_.end() - static_cast<std::ptrdiff_t>(std::min(noise_.size(), used));
+        return {result.value, result.error + result.amplified * *std::max_element(first_used, noise_.end())};
     }
 
     AccumulatingOrbit orbit_;

@@ -32,8 +32,7 @@ std::size_t own_event(const TestedPoint& point, std::size_t segment) {
 
 /// True when a curve keeps the duration of a segment at zero; then no other events are tested in it.
 bool has_zero_duration(const TestedPoint& point, std::size_t segment) {
-    const auto& kept = point.settings.kept;
-    const auto held = kept ? held_limit_of(*kept) : std::nullopt;
+    const auto held = held_limit_of(point.settings);
     return held && held->has_zero_duration(segment, point.equations.signature().size());
 }
 
@@ -52,6 +51,22 @@ bool belongs_to_contact(const TestedPoint& point, const OrbitMinimum& minimum) {
     return (own && minimum.time > (1 - at_end) * duration) ||
            (kept.at_end && minimum.segment == (kept.segment + after) % signature.size() &&
             minimum.time < at_start * duration);
+}
+
+/// True when the value at the end of a segment is zero because the curve keeps the duration of this or the next segment
+/// at zero.
+bool belongs_to_vanishing(const TestedPoint& point, const EndValue& end) {
+    const std::size_t next = (end.segment + 1) % point.equations.signature().size();
+    return has_zero_duration(point, end.segment) ||
+           (has_zero_duration(point, next) && own_event(point, next) == end.event &&
+            point.equations.signature()[next].end == SegmentEnd::event);
+}
+
+/// True when a segment ends with a kept contact of zero speed that is followed by segments of zero duration: the guard
+/// depends on their vanishing motion, so its margin is undefined.
+bool guard_is_undetermined(const TestedPoint& point, std::size_t segment) {
+    const auto held = held_limit_of(point.settings);
+    return held && held->kind == HeldLimit::Kind::stop && held->segment == segment && held->zero_durations > 0;
 }
 
 } // namespace
@@ -155,14 +170,8 @@ std::vector<BranchStart> leave_double_grazing(const System& system, const Specia
     std::vector<BranchStart> starts;
     std::string why = "the orbit touches nothing";
     for (const OrbitTouch& touch : touches_of(system, point.solution.orbit)) {
-        SpecialPoint one = point;
-        one.type = PointType::grazing;
-        one.segment = touch.segment;
-        one.event = touch.event;
-        one.time = touch.time;
-        one.at_end = touch.at_end;
         try {
-            for (BranchStart& start : leave_grazing(system, one, settings))
+            for (BranchStart& start : leave_grazing(system, grazing_at(point, touch), settings))
                 starts.push_back(std::move(start));
         } catch (const InputError& error) {
             why = error.problem();
@@ -192,19 +201,6 @@ std::unique_ptr<OrbitCondition> condition_of_vanishing(const OrbitEquations& equ
                                                        const SpecialPoint& point) {
     return held(OrbitQuantity::of_vanishing(equations, point.segment));
 }
-
-namespace {
-
-/// True when the value at the end of a segment is zero because the curve keeps the duration of this or the next segment
-/// at zero.
-bool belongs_to_vanishing(const TestedPoint& point, const EndValue& end) {
-    const std::size_t next = (end.segment + 1) % point.equations.signature().size();
-    return has_zero_duration(point, end.segment) ||
-           (has_zero_duration(point, next) && own_event(point, next) == end.event &&
-            point.equations.signature()[next].end == SegmentEnd::event);
-}
-
-} // namespace
 
 void test_two_events(const TestedPoint& point, std::vector<BranchTest>& tests) {
     for (const EndValue& end : point.solution.certificate.end_values) {
@@ -237,18 +233,6 @@ std::unique_ptr<OrbitCondition> condition_of_two_events(const OrbitEquations& eq
                                                         const SpecialPoint& point) {
     return held(OrbitQuantity::of_two_events(equations, point.segment, point.event));
 }
-
-namespace {
-
-/// True when a segment ends with a kept contact of zero speed that is followed by segments of zero duration: the guard
-/// depends on their vanishing motion, so its margin is undefined.
-bool guard_is_undetermined(const TestedPoint& point, std::size_t segment) {
-    const auto& kept = point.settings.kept;
-    const auto held = kept ? held_limit_of(*kept) : std::nullopt;
-    return held && held->kind == HeldLimit::Kind::stop && held->segment == segment && held->zero_durations > 0;
-}
-
-} // namespace
 
 void test_guard(const TestedPoint& point, std::vector<BranchTest>& tests) {
     for (std::size_t s = 0; s < point.equations.signature().size(); ++s) {
@@ -285,9 +269,9 @@ std::vector<BranchStart> leave_order(const System& system, const SpecialPoint& p
 void test_sensitivity(const TestedPoint& point, std::vector<BranchTest>& tests) {
     // Share of the period: smaller values are round-off, as where impacts do not affect the next pass.
     constexpr double least = 1e-9;
-    const auto& kept = point.settings.kept;
-    if (!kept || kept->type != PointType::grazing || kept->at_end)
+    if (!keeps_touch(point.settings))
         return;
+    const auto& kept = point.settings.kept;
     double next = not_a_number, same = not_a_number, alternating = not_a_number, size = 1;
     if (!point.settings.kept_too) {
         const CycleMap map = cycle_map_of(point.equations, point.at, {kept->segment, kept->event, kept->time, false},

@@ -3,6 +3,8 @@
 #include "branch/longest_step.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
+#include "orbit/eigen_index.hpp"
+#include "orbit/newton.hpp"
 
 #include <fmt/format.h>
 
@@ -29,21 +31,12 @@ constexpr double same_point = 1e-6;
 /// @param length between them
 std::vector<double> on_cubic(const ContinuationPoint& first, const ContinuationPoint& second, double length, double f) {
     const double g = 1 - f;
-    std::vector<double> result(first.u.size());
-    for (std::size_t i = 0; i < result.size(); ++i)
-        result[i] = g * g * (1 + 2 * f) * first.u[i] + f * f * (3 - 2 * f) * second.u[i] +
-                    length * f * g * (g * first.tangent[i] - f * second.tangent[i]);
-    return result;
+    return numbers_of(g * g * (1 + 2 * f) * vector_of(first.u) + f * f * (3 - 2 * f) * vector_of(second.u) +
+                      length * f * g * (g * vector_of(first.tangent) - f * vector_of(second.tangent)));
 }
 
-/// Adds a correction. @param moved set to the total correction since `begin`
-void advance(std::vector<double>& u, std::span<const double> step, std::span<const double> begin,
-             std::vector<double>& moved) {
-    moved.resize(u.size());
-    for (std::size_t i = 0; i < u.size(); ++i) {
-        u[i] += step[i];
-        moved[i] = u[i] - begin[i];
-    }
+std::vector<double> difference(std::span<const double> one, std::span<const double> other) {
+    return numbers_of(vector_of(one) - vector_of(other));
 }
 
 void require(bool good, const char* problem, const char* remedy) {
@@ -59,26 +52,15 @@ void ContinuationOptions::validate() const {
     require(largest_step >= smallest_step && std::isfinite(largest_step),
             "the largest step is smaller than the smallest", "make it larger");
     require(first_step > 0 && std::isfinite(first_step), "the first step is not positive", "give a positive number");
-    require(accuracy >= 1e-15 && accuracy <= 1e-2, "the accuracy is out of range", "choose from 1e-15 to 1e-2");
+    require_accuracy(accuracy);
     require(largest_angle > 0 && largest_angle < 1.5, "the largest angle is out of range",
             "choose between 0 and 1.5 radians");
     require(iterations > 0, "no iterations are allowed", "allow at least one");
 }
 
 std::string_view name_of(ContinuationOutcome outcome) {
-    switch (outcome) {
-    case ContinuationOutcome::going:
-        return "going";
-    case ContinuationOutcome::closed:
-        return "closed";
-    case ContinuationOutcome::no_convergence:
-        return "no convergence";
-    case ContinuationOutcome::undefined:
-        return "undefined";
-    case ContinuationOutcome::singular:
-        return "singular";
-    }
-    return "";
+    constexpr std::string_view names[] = {"going", "closed", "no convergence", "undefined", "singular"};
+    return names[static_cast<std::size_t>(outcome)];
 }
 
 Continuation::Continuation(std::shared_ptr<ContinuationProblem> problem, const ContinuationOptions& options)
@@ -93,20 +75,9 @@ void Continuation::set_next_step(double length) {
     next_step_ = std::clamp(length, options_.smallest_step, options_.largest_step);
 }
 
-double Continuation::product(std::span<const double> a, std::span<const double> b) const {
-    const auto scales = problem_->scales(), weights = problem_->weights();
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        sum += a[i] / scales[i] * (b[i] / scales[i]) * (weights.empty() ? 1 : weights[i]);
-    return sum;
-}
-
-/// Computes the row whose product with a vector is the scaled inner product with the direction.
-void Continuation::weigh(std::span<const double> direction, std::vector<double>& row) const {
-    const auto scales = problem_->scales(), weights = problem_->weights();
-    row.resize(direction.size());
-    for (std::size_t i = 0; i < direction.size(); ++i)
-        row[i] = direction[i] / (scales[i] * scales[i]) * (weights.empty() ? 1 : weights[i]);
+/// Scales a tangent to unit length.
+void Continuation::normalise(std::vector<double>& tangent) const {
+    entries_of(tangent) /= problem_->length_of(tangent);
 }
 
 double Continuation::size_of(std::span<const double> step) const {
@@ -135,14 +106,13 @@ bool Continuation::correct(std::vector<double>& u, std::span<const double> row, 
 bool Continuation::newton(std::vector<double>& u, std::span<const double> row, double allowed,
                           std::size_t& iterations) {
     const std::vector<double> begin = u;
-    std::vector<double> moved;
     double before = 0;
     for (iterations = 1; iterations <= options_.iterations; ++iterations) {
         if (!problem_->evaluate(u) || !problem_->solve(row, 0, false, step_, nullptr))
             return false;
-        advance(u, step_, begin, moved);
+        entries_of(u) += vector_of(step_);
         const double size = size_of(step_);
-        if (!std::isfinite(size) || std::sqrt(product(moved, moved)) > allowed)
+        if (!std::isfinite(size) || problem_->length_of(difference(u, begin)) > allowed)
             return false;
         // Newton's method converges quadratically, so this correction was the last. A small one that is not smaller
         // than the one before is round-off.
@@ -159,7 +129,7 @@ bool Continuation::newton(std::vector<double>& u, std::span<const double> row, d
             const double left = problem_->solve(row, 0, false, step_, nullptr) ? size_of(step_) : 0;
             if (!(left > options_.accuracy && left <= before))
                 return true;
-            advance(u, step_, begin, moved);
+            entries_of(u) += vector_of(step_);
             return problem_->evaluate(u);
         }
         if (iterations > 2 && size > before)
@@ -182,7 +152,7 @@ bool Continuation::chords(std::vector<double>& u, std::span<const double> row, d
     // Ratio of the second correction to the first below which Newton's method would take three iterations.
     constexpr double fast = 0.1;
     const std::vector<double> begin = u;
-    std::vector<double> moved, step(u.size());
+    std::vector<double> step(u.size());
     double before = 0;
     bool quick = true;
     corrections_.clear();
@@ -192,9 +162,9 @@ bool Continuation::chords(std::vector<double>& u, std::span<const double> row, d
             !(first ? problem_->solve(row, 0, false, step, nullptr) : problem_->chord(u, row, step)))
             return false;
         accelerate(step);
-        advance(u, step, begin, moved);
+        entries_of(u) += vector_of(step);
         const double size = size_of(step);
-        if (!std::isfinite(size) || std::sqrt(product(moved, moved)) > allowed)
+        if (!std::isfinite(size) || problem_->length_of(difference(u, begin)) > allowed)
             return false;
         if (iterations == 2)
             quick = size < fast * before || size < options_.accuracy;
@@ -222,8 +192,7 @@ bool Continuation::chords(std::vector<double>& u, std::span<const double> row, d
         return false;
     if (last < enough * options_.accuracy)
         return true;
-    for (std::size_t i = 0; i < u.size(); ++i)
-        u[i] += step_[i];
+    entries_of(u) += vector_of(step_);
     return problem_->evaluate(u);
 }
 
@@ -232,14 +201,11 @@ bool Continuation::chords(std::vector<double>& u, std::span<const double> row, d
 void Continuation::accelerate(std::vector<double>& step) const {
     for (std::size_t j = 0; j < corrections_.size(); ++j) {
         const std::vector<double>& one = corrections_[j];
-        const double share = product(one, step) / product(one, one);
-        if (j + 1 == corrections_.size()) {
-            for (double& entry : step)
-                entry /= 1 - share;
-        } else {
-            for (std::size_t i = 0; i < step.size(); ++i)
-                step[i] += share * corrections_[j + 1][i];
-        }
+        const double share = problem_->product(one, step) / problem_->product(one, one);
+        if (j + 1 == corrections_.size())
+            entries_of(step) /= 1 - share;
+        else
+            entries_of(step) += share * vector_of(corrections_[j + 1]);
     }
 }
 
@@ -248,11 +214,10 @@ bool Continuation::find_tangent(ContinuationPoint& point, std::span<const double
     point.tangent.resize(point.u.size());
     if (!problem_->solve(row, 1, true, point.tangent, &point.determinant))
         return false;
-    const double length = std::sqrt(product(point.tangent, point.tangent));
+    const double length = problem_->length_of(point.tangent);
     if (!(length > 0) || !std::isfinite(length))
         return false;
-    for (double& entry : point.tangent)
-        entry /= length;
+    entries_of(point.tangent) /= length;
     // By Cramer's rule this is the determinant bordered by the tangent instead of the row.
     point.determinant *= length;
     return true;
@@ -261,10 +226,7 @@ bool Continuation::find_tangent(ContinuationPoint& point, std::span<const double
 bool Continuation::begin(ContinuationPoint point) {
     point.arclength = 0;
     problem_->accept(point.u);
-    // Scales may have changed.
-    const double length = std::sqrt(product(point.tangent, point.tangent));
-    for (double& entry : point.tangent)
-        entry /= length;
+    normalise(point.tangent); // the scales may have changed
     point_ = previous_ = first_ = std::move(point);
     steps_ = 0;
     outcome_ = ContinuationOutcome::going;
@@ -272,10 +234,8 @@ bool Continuation::begin(ContinuationPoint point) {
 }
 
 bool Continuation::start(std::span<const double> u, std::size_t unknown, int direction) {
-    require_point(u);
+    ContinuationPoint point = point_at(u);
     require_index(unknown, u.size(), "unknown");
-    ContinuationPoint point;
-    point.u.assign(u.begin(), u.end());
     std::vector<double> row(u.size(), 0.0);
     row[unknown] = 1 / problem_->scales()[unknown];
     const double far = 1e3 * static_cast<double>(u.size());
@@ -307,29 +267,24 @@ bool Continuation::is_stationary(ContinuationPoint point, std::size_t unknown) {
 
 /// Starts where the unknown cannot be fixed, as at a fold: corrects orthogonally to the branch instead.
 bool Continuation::start_across(std::span<const double> u, std::size_t unknown, int direction) {
-    ContinuationPoint point;
-    point.u.assign(u.begin(), u.end());
+    ContinuationPoint point = point_at(u);
     if (!problem_->evaluate(point.u) || !find_tangent(point, generic_row()))
         return false;
-    std::vector<double> across;
-    weigh(point.tangent, across);
+    std::vector<double> across = problem_->row_of(point.tangent);
     constexpr double near = 0.1;
     if (!correct(point.u, across, near, point.iterations) || !problem_->evaluate(point.u))
         return false;
     outcome_ = ContinuationOutcome::singular;
     const double rise = point.tangent[unknown] * direction;
     if (rise < 0 || (rise == 0 && direction < 0)) // where the unknown is constant, the two directions must be opposite
-        for (double& entry : across)
-            entry = -entry;
+        entries_of(across) *= -1;
     return find_tangent(point, across) && begin(std::move(point));
 }
 
 bool Continuation::start_at(std::span<const double> u, std::span<const double> row) {
-    require_point(u);
+    ContinuationPoint point = point_at(u);
     require_size(row.size(), u.size(), "numbers of a row");
     require_finite(row, "a number of a row");
-    ContinuationPoint point;
-    point.u.assign(u.begin(), u.end());
     outcome_ = ContinuationOutcome::undefined;
     if (!problem_->evaluate(point.u))
         return false;
@@ -338,57 +293,45 @@ bool Continuation::start_at(std::span<const double> u, std::span<const double> r
 }
 
 bool Continuation::start_along(std::span<const double> u, std::span<const double> direction, double distance) {
-    require_point(u);
+    ContinuationPoint point = point_at(u);
     require_size(direction.size(), u.size(), "numbers of a direction");
     require_finite(direction, "a number of a direction");
     require_finite(distance, "the distance");
-    const double length = std::sqrt(product(direction, direction));
+    const double length = problem_->length_of(direction);
     outcome_ = ContinuationOutcome::singular;
     if (!(length > 0) || !std::isfinite(length))
         return false;
-    ContinuationPoint point;
-    point.u.assign(u.begin(), u.end());
-    for (std::size_t i = 0; i < u.size(); ++i)
-        point.u[i] += distance * direction[i] / length;
-    std::vector<double> row;
-    weigh(direction, row);
+    entries_of(point.u) += distance * vector_of(direction) / length;
+    std::vector<double> row = problem_->row_of(direction);
     outcome_ = ContinuationOutcome::no_convergence;
     if (!correct(point.u, row, farthest * std::abs(distance), point.iterations))
         return false;
     outcome_ = ContinuationOutcome::singular;
     if (distance < 0)
-        for (double& entry : row)
-            entry = -entry;
+        entries_of(row) *= -1;
     return find_tangent(point, row) && begin(std::move(point));
 }
 
-void Continuation::require_point(std::span<const double> u) const {
+ContinuationPoint Continuation::point_at(std::span<const double> u) const {
     require_size(u.size(), problem_->unknowns(), "unknowns");
     require_finite(u, "an unknown");
+    ContinuationPoint point;
+    point.u.assign(u.begin(), u.end());
+    return point;
 }
 
 /// Predicts the point at a distance along the tangent: on the cubic through the last two points and their tangents, if
 /// it is close to the tangent itself.
 std::vector<double> Continuation::predict(double length) const {
     constexpr double largest_offset = 0.5; // share of the step
-    const std::size_t count = point_.u.size();
-    std::vector<double> result(count), chord(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        result[i] = point_.u[i] + length * point_.tangent[i];
-        chord[i] = point_.u[i] - previous_.u[i];
-    }
-    const double last = steps_ == 0 ? 0 : std::sqrt(product(chord, chord));
+    std::vector<double> result = numbers_of(vector_of(point_.u) + length * vector_of(point_.tangent));
+    const double last = steps_ == 0 ? 0 : problem_->length_of(difference(point_.u, previous_.u));
     if (!(last > 0) || !(length <= growth * last))
         return result;
-    std::vector<double> off = on_cubic(previous_, point_, last, 1 + length / last);
-    for (std::size_t i = 0; i < count; ++i)
-        off[i] -= result[i];
-    const double along = product(off, point_.tangent);
-    for (std::size_t i = 0; i < count; ++i)
-        off[i] -= along * point_.tangent[i];
-    if (std::sqrt(product(off, off)) < largest_offset * length)
-        for (std::size_t i = 0; i < count; ++i)
-            result[i] += off[i];
+    std::vector<double> off = difference(on_cubic(previous_, point_, last, 1 + length / last), result);
+    entries_of(off) -= problem_->product(off, point_.tangent) * vector_of(point_.tangent);
+    if (problem_->length_of(off) < largest_offset * length)
+        entries_of(result) += vector_of(off);
     return result;
 }
 
@@ -401,11 +344,8 @@ bool Continuation::step() {
     problem_->accept(point_.u);
     double length = std::clamp(next_step_, options_.smallest_step,
                                longest_step(*problem_, previous_, point_, options_.largest_step));
-    const double unit = std::sqrt(product(point_.tangent, point_.tangent)); // the scales may have changed
-    for (double& entry : point_.tangent)
-        entry /= unit;
-    std::vector<double> row;
-    weigh(point_.tangent, row);
+    normalise(point_.tangent); // the scales may have changed
+    const std::vector<double> row = problem_->row_of(point_.tangent);
     for (;; length *= shrinkage) {
         if (length < options_.smallest_step) {
             outcome_ = undefined ? ContinuationOutcome::undefined : ContinuationOutcome::no_convergence;
@@ -420,7 +360,7 @@ bool Continuation::step() {
         undefined = false;
         if (!find_tangent(next, row))
             continue;
-        const double angle = std::acos(std::clamp(product(next.tangent, point_.tangent), -1.0, 1.0));
+        const double angle = std::acos(std::clamp(problem_->product(next.tangent, point_.tangent), -1.0, 1.0));
         if (angle > options_.largest_angle && length > 2 * options_.smallest_step)
             continue;
         next.arclength = point_.arclength + length;
@@ -445,47 +385,35 @@ bool Continuation::step() {
 bool Continuation::closes() {
     if (steps_ < 3)
         return false;
-    std::vector<double> chord(point_.u.size()), offset(point_.u.size());
-    for (std::size_t i = 0; i < chord.size(); ++i) {
-        chord[i] = point_.u[i] - previous_.u[i];
-        offset[i] = first_.u[i] - previous_.u[i];
-    }
+    const std::vector<double> chord = difference(point_.u, previous_.u);
+    std::vector<double> offset = difference(first_.u, previous_.u);
     problem_->reduce(offset);
-    const double length2 = product(chord, chord), along = product(offset, chord) / length2;
-    if (!(along > 0 && along <= 1) || product(offset, offset) > 4 * length2 ||
-        product(first_.tangent, point_.tangent) < 0.5 * std::sqrt(product(first_.tangent, first_.tangent)))
+    const double length2 = problem_->product(chord, chord), along = problem_->product(offset, chord) / length2;
+    if (!(along > 0 && along <= 1) || problem_->product(offset, offset) > 4 * length2 ||
+        problem_->product(first_.tangent, point_.tangent) < 0.5 * problem_->length_of(first_.tangent))
         return false;
     ContinuationPoint here;
     if (!between(along, here))
         return false;
-    for (std::size_t i = 0; i < offset.size(); ++i)
-        offset[i] = here.u[i] - first_.u[i];
+    offset = difference(here.u, first_.u);
     problem_->reduce(offset);
-    return std::sqrt(product(offset, offset)) < same_point;
+    return problem_->length_of(offset) < same_point;
 }
 
 bool Continuation::between(double fraction, ContinuationPoint& result) {
     if (steps_ == 0)
         throw OrderError("there are no two points to look between before the first step");
     require_finite(fraction, "the fraction");
-    const std::size_t count = point_.u.size();
     const double length = point_.arclength - previous_.arclength;
-    std::vector<double> chord(count), row;
+    const std::vector<double> chord = difference(point_.u, previous_.u), row = problem_->row_of(chord);
     // Predict by the cubic, shifted into the hyperplane.
-    const double f = fraction;
-    result.u = on_cubic(previous_, point_, length, f);
-    for (std::size_t i = 0; i < count; ++i)
-        chord[i] = point_.u[i] - previous_.u[i];
-    std::vector<double> offset(count);
-    for (std::size_t i = 0; i < count; ++i)
-        offset[i] = previous_.u[i] + f * chord[i] - result.u[i];
-    const double shift = product(offset, chord) / product(chord, chord);
-    for (std::size_t i = 0; i < count; ++i)
-        result.u[i] += shift * chord[i];
-    weigh(chord, row);
+    result.u = on_cubic(previous_, point_, length, fraction);
+    const std::vector<double> offset =
+        numbers_of(vector_of(previous_.u) + fraction * vector_of(chord) - vector_of(result.u));
+    entries_of(result.u) += problem_->product(offset, chord) / problem_->product(chord, chord) * vector_of(chord);
     if (!correct(result.u, row, length, result.iterations) || !find_tangent(result, row))
         return false;
-    result.arclength = previous_.arclength + f * length;
+    result.arclength = previous_.arclength + fraction * length;
     return true;
 }
 

@@ -1,5 +1,7 @@
 #include "branch/crossing.hpp"
 
+#include "orbit/eigen_index.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -8,9 +10,6 @@ namespace graze {
 
 namespace {
 
-/// Offsets of the sample points from the estimated zero, as fractions of the step: near enough for an accurate
-/// polynomial, far enough for Newton's method to stay on the branch.
-constexpr double usual_offsets[] = {-0.12, -0.09, -0.06, -0.03, 0.03, 0.06, 0.09, 0.12};
 constexpr std::size_t fewest = 6;
 constexpr int most_rounds = 8;
 constexpr double settled = 0.015;
@@ -59,25 +58,41 @@ ContinuationPoint point_at(const std::vector<Sample>& samples, double fraction) 
     result.u.assign(samples[0].point.u.size(), 0.0);
     result.tangent.assign(result.u.size(), 0.0);
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        for (std::size_t k = 0; k < result.u.size(); ++k) {
-            result.u[k] += weights[i] * samples[i].point.u[k];
-            result.tangent[k] += weights[i] * samples[i].point.tangent[k];
-        }
+        entries_of(result.u) += weights[i] * vector_of(samples[i].point.u);
+        entries_of(result.tangent) += weights[i] * vector_of(samples[i].point.tangent);
         result.arclength += weights[i] * samples[i].point.arclength;
     }
     return result;
 }
 
+/// Returns the vertex of the parabola through three points, with its value.
+TestValue vertex_of(const TestValue& before, const TestValue& low, const TestValue& high) {
+    const double first = (low.value - before.value) / (low.fraction - before.fraction),
+                 second = (high.value - low.value) / (high.fraction - low.fraction),
+                 curvature = (second - first) / (high.fraction - before.fraction);
+    // p(s) = low + second (s - low) + curvature (s - low) (s - high)
+    const double vertex = 0.5 * (low.fraction + high.fraction) - 0.5 * second / curvature;
+    return {vertex, low.value + second * (vertex - low.fraction) +
+                        curvature * (vertex - low.fraction) * (vertex - high.fraction)};
+}
+
+/// Returns a point between a distant `end` and the vertex of a parabola that has the sign of `end` but lies near the
+/// zero; `end` itself if none is found.
+TestValue nearer(const TestValue& end, const TestValue& vertex, const std::function<double(double)>& value_at) {
+    constexpr double behind = 2, far = 0.5; // factors of the distance of the zero, and of the distance of the end
+    const double share = behind * std::sqrt(vertex.value / (vertex.value - end.value));
+    if (!(share < far))
+        return end;
+    TestValue result{vertex.fraction + share * (end.fraction - vertex.fraction), 0};
+    result.value = value_at(result.fraction);
+    return result.value * end.value > 0 ? result : end;
+}
+
 } // namespace
 
 std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, const PointTest& test,
-                                                 const TestValue& begin, const TestValue& end, double reach) {
-    return locate_crossing(continuation, test, begin, end, usual_offsets, reach);
-}
-
-std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, const PointTest& test,
-                                                 const TestValue& begin, const TestValue& end,
-                                                 std::span<const double> offsets, double reach) {
+                                                 const TestValue& begin, const TestValue& end, double reach,
+                                                 std::span<const double> offsets) {
     double low = begin.fraction, high = end.fraction;
     double guess = low + (high - low) * begin.value / (begin.value - end.value);
     if (!std::isfinite(guess)) // a test may be infinite, as multipliers near a touch
@@ -111,33 +126,6 @@ std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, con
     }
     return std::nullopt;
 }
-
-namespace {
-
-/// Returns the vertex of the parabola through three points, with its value.
-TestValue vertex_of(const TestValue& before, const TestValue& low, const TestValue& high) {
-    const double first = (low.value - before.value) / (low.fraction - before.fraction),
-                 second = (high.value - low.value) / (high.fraction - low.fraction),
-                 curvature = (second - first) / (high.fraction - before.fraction);
-    // p(s) = low + second (s - low) + curvature (s - low) (s - high)
-    const double vertex = 0.5 * (low.fraction + high.fraction) - 0.5 * second / curvature;
-    return {vertex, low.value + second * (vertex - low.fraction) +
-                        curvature * (vertex - low.fraction) * (vertex - high.fraction)};
-}
-
-/// Returns a point between a distant `end` and the vertex of a parabola that has the sign of `end` but lies near the
-/// zero; `end` itself if none is found.
-TestValue nearer(const TestValue& end, const TestValue& vertex, const std::function<double(double)>& value_at) {
-    constexpr double behind = 2, far = 0.5; // factors of the distance of the zero, and of the distance of the end
-    const double share = behind * std::sqrt(vertex.value / (vertex.value - end.value));
-    if (!(share < far))
-        return end;
-    TestValue result{vertex.fraction + share * (end.fraction - vertex.fraction), 0};
-    result.value = value_at(result.fraction);
-    return result.value * end.value > 0 ? result : end;
-}
-
-} // namespace
 
 std::optional<double> possible_dip(const TestValue& before, const TestValue& low, const TestValue& high) {
     const auto [vertex, least] = vertex_of(before, low, high);

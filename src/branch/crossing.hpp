@@ -16,17 +16,19 @@ struct TestValue {
 /// A test function of points of a branch; NaN where it is not defined.
 using PointTest = std::function<double(const ContinuationPoint&)>;
 
+/// Offsets of points from an estimated zero, as fractions of the step: near enough for an accurate polynomial, far
+/// enough for Newton's method to stay on the branch.
+inline constexpr double usual_offsets[] = {-0.12, -0.09, -0.06, -0.03, 0.03, 0.06, 0.09, 0.12};
+
 /// Locates the zero of a test function within the last step, near a crossing of two branches: the crossing itself if
 /// the test is the determinant, or another point beside it. The equations are singular at a crossing, and near it
 /// Newton's method may converge to either branch. Therefore points at a safe distance on both sides are computed, and
 /// polynomials through them give the zero and the branch there.
-std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, const PointTest& test,
-                                                 const TestValue& low, const TestValue& high, double reach = 1);
-/// @param offsets of the points from the estimated zero, in increasing order, as fractions of the step
 /// @param reach factor that shortens the offsets where another zero is near
+/// @param offsets of the points from the estimated zero, in increasing order, as fractions of the step
 std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, const PointTest& test,
-                                                 const TestValue& low, const TestValue& high,
-                                                 std::span<const double> offsets, double reach = 1);
+                                                 const TestValue& low, const TestValue& high, double reach = 1,
+                                                 std::span<const double> offsets = usual_offsets);
 
 /// Returns where a test may have two zeros between the last two of three points with values of one sign: the vertex of
 /// the parabola through them, if its value is near zero or of the other sign.

@@ -1,6 +1,6 @@
 #include "graze/branch/curve_start.hpp"
 
-#include "branch/point_kind.hpp"
+#include "branch/missed_points.hpp"
 #include "graze/base/input_error.hpp"
 
 #include <fmt/format.h>
@@ -18,20 +18,14 @@ namespace {
 /// Tolerance of multipliers: a double one is known only to the square root of its uncertainty.
 constexpr double nearness = 1e-3;
 
-/// Returns the multipliers of the half map for half orbits, otherwise of the orbit.
-const std::vector<std::complex<double>>& own_multipliers(const SpecialPoint& point) {
-    const OrbitSolution& solution = point.solution;
-    return solution.half_multipliers.empty() ? solution.multipliers : solution.half_multipliers;
-}
-
 std::size_t multipliers_near(const SpecialPoint& point, double wanted) {
-    const auto& all = own_multipliers(point);
+    const auto& all = multipliers_followed(point.solution);
     return static_cast<std::size_t>(
         std::count_if(all.begin(), all.end(), [&](auto one) { return std::abs(one - wanted) < nearness; }));
 }
 
 bool begins_with_pair_on_circle(const SpecialPoint& point) {
-    const auto& all = own_multipliers(point);
+    const auto& all = multipliers_followed(point.solution);
     return multipliers_near(point, 1) >= 2 || multipliers_near(point, -1) >= 2 ||
            std::any_of(all.begin(), all.end(),
                        [](auto one) { return one.imag() > nearness && std::abs(std::abs(one) - 1) < nearness; });
@@ -77,7 +71,7 @@ std::string quoted(const std::vector<PointType>& types) {
 } // namespace
 
 std::string multipliers_in_words(const SpecialPoint& point) {
-    const auto& all = own_multipliers(point);
+    const auto& all = multipliers_followed(point.solution);
     if (all.empty())
         return "its multipliers are not defined, as where a contact has no speed";
     std::vector<std::string> texts;
@@ -111,14 +105,10 @@ SpecialPoint as_type(const SpecialPoint& point, PointType type) {
                              ? fmt::format("no curve begins there: choose a point of type {}", fmt::join(kept, ", "))
                              : fmt::format("curves that begin there are {}", quoted(known)));
     }
+    if (const auto touch = touch_of(point); type == PointType::grazing && !is_grazing(point.type) && touch)
+        return grazing_at(point, {touch->segment, touch->event, touch->time, false});
     SpecialPoint result = point;
     result.type = type;
-    if (const auto touch = touch_of(point); type == PointType::grazing && !is_grazing(point.type) && touch) {
-        result.segment = touch->segment;
-        result.event = touch->event;
-        result.time = touch->time;
-        result.at_end = false;
-    }
     return result;
 }
 

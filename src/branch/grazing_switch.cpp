@@ -1,6 +1,7 @@
 #include "branch/grazing_switch.hpp"
 
 #include "base/linear_systems.hpp"
+#include "branch/bounds.hpp"
 #include "branch/inserted_contact.hpp"
 #include "branch/orbit_problem.hpp"
 #include "branch/orbit_quantity.hpp"
@@ -19,7 +20,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace graze {
 
@@ -32,73 +32,62 @@ constexpr double before_next_touch = 1e-4;
 constexpr int most_iterations = 20;
 
 /// The touch: its state, with the event function and its rate.
-class Touch {
-public:
-    Touch(const Simulation& simulation, const SpecialPoint& point)
-        : simulation_(simulation), orbit_(&point.solution.orbit), mode_(orbit_->signature[point.segment].mode),
-          event_(point.event), shooting_(simulation, *orbit_, {}), at_(shooting_.evaluation()) {
+struct Touch {
+    Touch(const Simulation& in, const SpecialPoint& point)
+        : simulation(in), orbit(&point.solution.orbit), mode(orbit->signature[point.segment].mode), event(point.event),
+          shooting(simulation, *orbit, {}), at(shooting.evaluation()) {
         const System& system = simulation.system();
-        function_ = system.event(event_);
-        rate_ = system.with_gradient(rate_of(system, mode_, event_));
+        function = system.event(event);
+        rate = system.with_gradient(rate_of(system, mode, event));
         ModeFlow flow = flow_of(simulation);
-        flow.set_parameters(orbit_->parameters);
-        state_ = orbit_->starts[point.segment];
-        const double time = std::min(point.time, orbit_->durations[point.segment]);
+        flow.set_parameters(orbit->parameters);
+        state = orbit->starts[point.segment];
+        const double time = std::min(point.time, orbit->durations[point.segment]);
         constexpr int parts = 64;
         for (int part = 0; part < parts; ++part) {
-            flow.run(mode_, state_, time / parts);
-            greatest_value_ = std::max(greatest_value_, std::abs(function_(inputs(state_))[0]));
-            greatest_speed_ = std::max(greatest_speed_, std::abs(rate_(inputs(state_))[0]));
+            flow.run(mode, state, time / parts);
+            greatest_value = std::max(greatest_value, std::abs(function(inputs(state))[0]));
+            greatest_speed = std::max(greatest_speed, std::abs(rate(inputs(state))[0]));
         }
-        shooting_.evaluate(shooting_.unknowns_of(*orbit_), at_);
+        shooting.evaluate(shooting.unknowns_of(*orbit), at);
     }
-
-    std::size_t mode() const { return mode_; }
-    std::size_t event() const { return event_; }
-    double greatest_speed() const { return greatest_speed_; }
-    const std::vector<double>& state() const { return state_; }
-    double greatest_value() const { return greatest_value_; }
 
     /// Returns the nearest state, in scaled states, at which function and rate have these values; cyclic, drifting and
     /// neutral states are not changed.
-    std::vector<double> displaced(double value, double rate) const {
-        const auto h = function_(inputs(state_)), r = rate_(inputs(state_));
-        const std::size_t n = state_.size();
+    std::vector<double> displaced(double wanted_value, double wanted_rate) const {
+        const auto h = function(inputs(state)), r = rate(inputs(state));
+        const std::size_t n = state.size();
         Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, index(n));
-        for (const std::size_t i : at_.active) {
-            if (simulation_.model().states[i].period)
+        for (const std::size_t i : at.active) {
+            if (simulation.model().states[i].period)
                 continue;
-            const double scale = shooting_.scales()[index(i)];
+            const double scale = shooting.scales()[index(i)];
             rows(0, index(i)) = h[1 + i] * scale;
             rows(1, index(i)) = r[1 + i] * scale;
         }
-        Eigen::Vector2d wanted(value - h[0], rate - r[0]);
+        Eigen::Vector2d wanted(wanted_value - h[0], wanted_rate - r[0]);
         for (const Eigen::Index k : {0, 1}) // normalise: value and rate have different units
             if (const double unit = rows.row(k).norm(); unit > 0) {
                 rows.row(k) /= unit;
                 wanted[k] /= unit;
             }
         const Eigen::VectorXd step = shortest_solution(rows, wanted);
-        std::vector<double> result = state_;
-        for (std::size_t i = 0; i < n; ++i)
-            result[i] += step[index(i)] * shooting_.scales()[index(i)];
-        return result;
+        return numbers_of(vector_of(state) + step.cwiseProduct(shooting.scales().head(index(n))));
     }
 
-    std::vector<double> inputs(std::vector<double> state) const {
-        state.insert(state.end(), orbit_->parameters.begin(), orbit_->parameters.end());
-        return state;
+    std::vector<double> inputs(std::vector<double> values) const {
+        values.insert(values.end(), orbit->parameters.begin(), orbit->parameters.end());
+        return values;
     }
 
-private:
-    Simulation simulation_;
-    const Orbit* orbit_;
-    std::size_t mode_, event_;
-    Shooting shooting_;
-    OrbitEvaluation at_;
-    Function function_, rate_;
-    std::vector<double> state_;
-    double greatest_speed_ = 0, greatest_value_ = 0; ///< along the arc
+    Simulation simulation;
+    const Orbit* orbit;
+    std::size_t mode, event;
+    Shooting shooting;
+    OrbitEvaluation at;
+    Function function, rate;
+    std::vector<double> state;
+    double greatest_speed = 0, greatest_value = 0; ///< along the arc
 };
 
 /// Returns the mode after a transition, by its guards; empty where the motion ends.
@@ -106,10 +95,6 @@ std::optional<std::size_t> mode_after(const System& model, std::size_t transitio
     std::vector<double> conditions, work(model.workspace());
     const auto* chosen = chosen_alternative(model, transition, inputs, conditions, work);
     return chosen ? chosen->mode : std::nullopt;
-}
-
-double sum(const std::vector<double>& values) {
-    return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
 /// Moves an orbit, with the parameter, to where the event of its last segment is reached at a given speed.
@@ -159,20 +144,11 @@ std::optional<Orbit> followed_after_contact(const Simulation& simulation, const 
         why = motion.problem;
         return std::nullopt;
     }
-    Orbit orbit;
-    orbit.parameters = grazing.parameters;
-    orbit.symmetry = grazing.symmetry;
-    orbit.signature = motion.segments;
-    orbit.starts = motion.starts;
-    orbit.durations = motion.durations;
-    orbit.durations.push_back(period - sum(motion.durations));
+    Orbit orbit{motion.segments, grazing.parameters, motion.starts, motion.durations, grazing.symmetry};
     orbit.signature.push_back(last);
+    orbit.durations.push_back(period - orbit.return_time());
     return orbit;
 }
-
-} // namespace
-
-namespace {
 
 /// Makes first guesses of orbits in which a touch has become a contact of small speed.
 class NewContact {
@@ -180,19 +156,19 @@ public:
     /// @throws InputError where nothing happens at the event
     NewContact(const System& system, const SpecialPoint& point, const BranchSettings& settings)
         : simulation_(system, {}, {}, integration(settings.orbit.tolerance)), point_(point), touch_(simulation_, point),
-          name_(system.model().events[touch_.event()].name) {
+          name_(system.model().events[touch_.event].name) {
         const Model& model = system.model();
         const Orbit& grazing = point.solution.orbit;
-        transition_ = model.find_transition(touch_.mode(), touch_.event());
+        transition_ = model.find_transition(touch_.mode, touch_.event);
         if (!transition_)
             throw InputError(fmt::format("nothing happens at event '{}'", name_), "no branch leaves there");
         index_ = static_cast<std::size_t>(transition_ - model.transitions.data());
-        last_ = {touch_.mode(), SegmentEnd::event, index_};
+        last_ = {touch_.mode, SegmentEnd::event, index_};
         if (grazing.symmetry)
             last_ = image_of(system, *grazing.symmetry, last_, grazing);
     }
     const Simulation& simulation() const { return simulation_; }
-    double greatest_speed() const { return touch_.greatest_speed(); }
+    double greatest_speed() const { return touch_.greatest_speed; }
     const std::string& name() const { return name_; }
 
     /// @param inserted true: insert the contact into the segments of the grazing orbit; false: follow the motion after
@@ -237,70 +213,6 @@ bool have_bifurcation_between(const Simulation& simulation, const Orbit& one, co
             here.system.antiperiodic_determinant() * there.system.antiperiodic_determinant() < 0);
 }
 
-/// False, with the reason set, for orbits beyond the bounds of the parameter, as may happen near a touch close to a
-/// bound.
-bool is_within_bounds(const BranchSettings& settings, const Orbit& orbit, std::string& why) {
-    const double value = orbit.parameters[settings.parameter.place()];
-    const bool within =
-        !(settings.least && value < *settings.least) && !(settings.greatest && value > *settings.greatest);
-    if (!within)
-        why = "it lies outside the branch's bounds";
-    return within;
-}
-
-} // namespace
-
-BranchStart with_one_more_contact(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
-    const NewContact contact(system, point, settings);
-    std::string why = "Newton's method does not find it";
-    const auto with_share = [&](double share) -> std::optional<BranchStart> {
-        const double speed = share * contact.greatest_speed();
-        for (const bool inserted : {true, false}) {
-            auto orbit = contact.with_speed(speed, inserted, why);
-            if (!orbit)
-                continue;
-            const OrbitDirection direction = solve_for_speed(contact.simulation(), *orbit, speed, settings);
-            if (!direction.is_empty() && is_within_bounds(settings, *orbit, why) &&
-                is_admissible(contact.simulation(), *orbit, why))
-                return BranchStart{*orbit, direction, 0, fmt::format("with one more contact at '{}'", contact.name())};
-        }
-        return std::nullopt;
-    };
-    for (const double share : speeds) {
-        const auto start = with_share(share);
-        if (!start)
-            continue;
-        // Start nearer to the touch if a fold or flip lies in between.
-        for (const double nearer : {1e-4, 1e-2})
-            if (const auto near = with_share(nearer * share);
-                near && have_bifurcation_between(contact.simulation(), near->orbit, start->orbit))
-                return *near;
-        return *start;
-    }
-    throw InputError(fmt::format("no orbit with one more contact at '{}' was found: {}", contact.name(), why),
-                     "the motion after the contact may accumulate contacts, or not come back");
-}
-
-Orbit with_contact_of_no_speed(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
-    constexpr double shares[] = {
-        1e-6, 1e-5,
-        1e-4}; // shares of the largest speed: a small speed is needed to follow the motion after the contact
-    const NewContact contact(system, point, settings);
-    std::string why = "Newton's method does not find it";
-    for (const double share : shares)
-        for (const bool inserted : {true, false}) {
-            auto orbit = contact.with_speed(share * contact.greatest_speed(), inserted, why);
-            if (!orbit || solve_for_speed(contact.simulation(), *orbit, 0, settings).is_empty())
-                continue;
-            orbit->parameters = point.solution.orbit.parameters; // equal up to round-off
-            return *orbit;
-        }
-    throw InputError(fmt::format("no orbit with a contact more at '{}' was found: {}", contact.name(), why),
-                     "the motion after the contact may accumulate contacts, or not come back");
-}
-
-namespace {
-
 /// Cuts off a motion where it returns to the contact that the orbit shall not have. It may reach it early, by a time
 /// that grows with the square root of the clearance.
 void cut_off_return(const System& system, FollowedMotion& motion, const Orbit& old, std::size_t segment,
@@ -325,17 +237,68 @@ void cut_off_return(const System& system, FollowedMotion& motion, const Orbit& o
 
 } // namespace
 
+BranchStart with_one_more_contact(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
+    const NewContact contact(system, point, settings);
+    std::string why = "Newton's method does not find it";
+    const auto with_share = [&](double share) -> std::optional<BranchStart> {
+        const double speed = share * contact.greatest_speed();
+        for (const bool inserted : {true, false}) {
+            auto orbit = contact.with_speed(speed, inserted, why);
+            if (!orbit)
+                continue;
+            const OrbitDirection direction = solve_for_speed(contact.simulation(), *orbit, speed, settings);
+            if (direction.is_empty())
+                continue;
+            if (is_outside(settings, orbit->parameters[settings.parameter.place()])) // near a touch close to a bound
+                why = "it lies outside the branch's bounds";
+            else if (is_admissible(contact.simulation(), *orbit, why))
+                return BranchStart{*orbit, direction, 0, fmt::format("with one more contact at '{}'", contact.name())};
+        }
+        return std::nullopt;
+    };
+    for (const double share : speeds) {
+        const auto start = with_share(share);
+        if (!start)
+            continue;
+        // Start nearer to the touch if a fold or flip lies in between.
+        for (const double nearer : {1e-4, 1e-2})
+            if (const auto near = with_share(nearer * share);
+                near && have_bifurcation_between(contact.simulation(), near->orbit, start->orbit))
+                return *near;
+        return *start;
+    }
+    throw InputError(fmt::format("no orbit with one more contact at '{}' was found: {}", contact.name(), why),
+                     "the motion after the contact may accumulate contacts, or not come back");
+}
+
+Orbit with_contact_of_no_speed(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
+    // Shares of the largest speed: a small speed is needed to follow the motion after the contact.
+    constexpr double shares[] = {1e-6, 1e-5, 1e-4};
+    const NewContact contact(system, point, settings);
+    std::string why = "Newton's method does not find it";
+    for (const double share : shares)
+        for (const bool inserted : {true, false}) {
+            auto orbit = contact.with_speed(share * contact.greatest_speed(), inserted, why);
+            if (!orbit || solve_for_speed(contact.simulation(), *orbit, 0, settings).is_empty())
+                continue;
+            orbit->parameters = point.solution.orbit.parameters; // equal up to round-off
+            return *orbit;
+        }
+    throw InputError(fmt::format("no orbit with a contact more at '{}' was found: {}", contact.name(), why),
+                     "the motion after the contact may accumulate contacts, or not come back");
+}
+
 BranchStart with_one_contact_fewer(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
     const Model& model = system.model();
     constexpr double clearance = 1e-6; // share of the largest gap by which the contact is missed
     const Simulation simulation(system, {}, {}, integration(settings.orbit.tolerance));
     const Orbit& old = point.solution.orbit;
     const Touch touch(simulation, point);
-    const std::string& name = model.events[touch.event()].name;
+    const std::string& name = model.events[touch.event].name;
     const double period = old.return_time();
-    const std::vector<double> state = touch.displaced(clearance * touch.greatest_value(), 0);
+    const std::vector<double> state = touch.displaced(clearance * touch.greatest_value, 0);
     FollowedMotion motion =
-        follow_motion(simulation, old.parameters, state, touch.mode(), (1 - before_next_touch) * period);
+        follow_motion(simulation, old.parameters, state, touch.mode, (1 - before_next_touch) * period);
     cut_off_return(system, motion, old, point.segment, period);
     const auto fail = [&](const std::string& why) {
         throw InputError(fmt::format("no orbit with one contact fewer at '{}' was found: {}", name, why),
@@ -344,9 +307,8 @@ BranchStart with_one_contact_fewer(const System& system, const SpecialPoint& poi
     if (!motion.problem.empty())
         fail(motion.problem);
     std::optional<Orbit> orbit =
-        motion.segments.empty()
-            ? close_at_section(system, old.parameters, state, touch.mode(), period, "", old.symmetry)
-            : std::optional(begun_after_first_contact(system, old, motion, period));
+        motion.segments.empty() ? close_at_section(system, old.parameters, state, touch.mode, period, "", old.symmetry)
+                                : std::optional(begun_after_first_contact(system, old, motion, period));
     if (!orbit)
         fail("it passes none of the model's sections");
     const OrbitSolution solution = solve_orbit(system, *orbit, settings.orbit);
@@ -358,13 +320,11 @@ BranchStart with_one_contact_fewer(const System& system, const SpecialPoint& poi
     trial.stop_when_unphysical = false;
     OrbitDirection direction;
     for (const int sign : {1, -1}) {
-        const Simulation here(system, {}, {}, integration(settings.orbit.tolerance));
-        OrbitProblem problem(here, solution.orbit, settings.parameter);
-        std::vector<double> row(problem.unknowns(), 0.0), tangent(problem.unknowns());
-        row[problem.parameter_place()] = sign;
-        if (!problem.evaluate(problem.unknowns_of(solution.orbit)) || !problem.solve(row, 1, true, tangent, nullptr))
+        OrbitProblem problem(simulation, solution.orbit, settings.parameter);
+        const auto tangent = problem.tangent_at(solution.orbit, sign);
+        if (!tangent)
             fail("the branch has a fold there");
-        direction = problem.direction_of(tangent);
+        direction = *tangent;
         OrbitBranch branch(system, solution.orbit, trial);
         if (branch.start_along(direction, 0) && branch.step() && branch.point().solution.certificate.admissible)
             break;

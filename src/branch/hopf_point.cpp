@@ -48,8 +48,7 @@ public:
             if (size == 0 || (before < close && size >= 0.5 * before))
                 return matrix_;
             before = size;
-            for (std::size_t k = 0; k < state.size(); ++k)
-                state[k] += step[index(k)] * scales_[k];
+            entries_of(state) += step.cwiseProduct(vector_of(scales_));
         }
         return std::nullopt;
     }

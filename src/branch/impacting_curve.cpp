@@ -32,16 +32,13 @@ std::vector<PointType> vanishing_sums(const System& system, const SpecialPoint& 
 
 std::vector<PointType> impacting_curves_at(const System& system, const SpecialPoint& point) {
     const PointType flips = point.solution.orbit.symmetry ? PointType::asymmetry : PointType::flip;
-    switch (point.type) {
-    case PointType::fold_degenerate:
+    if (point.type == PointType::fold_degenerate)
         return {PointType::fold};
-    case PointType::flip_degenerate:
+    if (point.type == PointType::flip_degenerate)
         return {flips};
-    case PointType::sensitivity:
+    if (point.type == PointType::sensitivity)
         return vanishing_sums(system, as_type(point, PointType::grazing), flips);
-    default:
-        return {};
-    }
+    return {};
 }
 
 SpecialPoint on_impacting_curve(const System& system, const SpecialPoint& point, PointType type,

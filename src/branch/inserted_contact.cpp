@@ -1,6 +1,6 @@
 #include "branch/inserted_contact.hpp"
 
-#include "graze/orbit/solve.hpp"
+#include "branch/other_branch.hpp"
 
 #include <algorithm>
 
@@ -8,47 +8,29 @@ namespace graze {
 
 namespace {
 
-struct Entry {
-    Segment segment;
-    std::vector<double> start;
-    double duration;
-};
-
-/// Returns the segments of an orbit twice, the second time as images for a half orbit.
-std::vector<Entry> two_rounds(const System& system, const Orbit& orbit) {
-    std::vector<Entry> entries;
-    for (std::size_t k = 0; k < orbit.segments(); ++k)
-        entries.push_back({orbit.signature[k], orbit.starts[k], orbit.durations[k]});
-    const Function map = orbit.symmetry ? system.symmetry(*orbit.symmetry).map : Function();
-    for (std::size_t k = 0; k < orbit.segments(); ++k) {
-        Entry entry = entries[k];
-        if (orbit.symmetry) {
-            entry.segment = image_of(system, *orbit.symmetry, entry.segment, orbit);
-            entry.start.insert(entry.start.end(), orbit.parameters.begin(), orbit.parameters.end());
-            entry.start = map(entry.start);
-        }
-        entries.push_back(std::move(entry));
+/// Returns an orbit traversed twice, the second time as images for a half orbit.
+Orbit two_rounds(const System& system, const Orbit& orbit) {
+    Orbit result = twice(orbit);
+    const std::size_t count = orbit.segments();
+    for (std::size_t k = 0; orbit.symmetry && k < count; ++k) {
+        std::vector<double>& start = result.starts[count + k];
+        start.insert(start.end(), orbit.parameters.begin(), orbit.parameters.end());
+        start = system.symmetry(*orbit.symmetry).map(start);
+        result.signature[count + k] = image_of(system, *orbit.symmetry, orbit.signature[k], orbit);
     }
-    return entries;
+    return result;
 }
 
 /// Merges each segment that no event ends with the following one.
-Orbit joined(const Orbit& like, const std::vector<Entry>& entries) {
-    Orbit orbit;
-    orbit.parameters = like.parameters;
-    orbit.symmetry = like.symmetry;
-    bool continues = false;
-    for (const Entry& entry : entries) {
-        if (!continues) {
-            orbit.signature.push_back(entry.segment);
-            orbit.starts.push_back(entry.start);
-            orbit.durations.push_back(entry.duration);
+Orbit joined(const Orbit& pieces) {
+    Orbit orbit{{}, pieces.parameters, {}, {}, pieces.symmetry};
+    for (std::size_t k = 0; k < pieces.segments(); ++k)
+        if (k == 0 || pieces.signature[k - 1].end == SegmentEnd::event) {
+            append(orbit, pieces.signature[k], pieces.starts[k], pieces.durations[k]);
         } else {
-            orbit.signature.back() = entry.segment;
-            orbit.durations.back() += entry.duration;
+            orbit.signature.back() = pieces.signature[k];
+            orbit.durations.back() += pieces.durations[k];
         }
-        continues = entry.segment.end != SegmentEnd::event;
-    }
     return orbit;
 }
 
@@ -57,10 +39,10 @@ Orbit joined(const Orbit& like, const std::vector<Entry>& entries) {
 std::optional<Orbit> with_contact_inserted(const Simulation& simulation, const SpecialPoint& point,
                                            const std::vector<double>& after, std::size_t mode, const Segment& last) {
     const Orbit& grazing = point.solution.orbit;
-    const std::vector<Entry> rounds = two_rounds(simulation.system(), grazing);
+    const Orbit rounds = two_rounds(simulation.system(), grazing);
     const std::size_t touching = point.segment, count = grazing.segments();
     double left = grazing.durations[touching] - point.time;
-    std::vector<Entry> entries;
+    Orbit orbit{{}, grazing.parameters, {}, {}, grazing.symmetry};
     std::vector<double> start = after;
     if (mode != grazing.signature[touching].mode) {
         const FollowedMotion motion = follow_motion(simulation, grazing.parameters, after, mode, grazing.return_time());
@@ -70,37 +52,32 @@ std::optional<Orbit> with_contact_inserted(const Simulation& simulation, const S
         if (back >= motion.segments.size())
             return std::nullopt;
         for (std::size_t k = 0; k < back; ++k) {
-            entries.push_back({motion.segments[k], motion.starts[k], motion.durations[k]});
+            append(orbit, motion.segments[k], motion.starts[k], motion.durations[k]);
             left -= motion.durations[k];
         }
         start = motion.starts[back];
     }
     if (left < 0)
         return std::nullopt;
-    entries.push_back({rounds[touching].segment, start, left});
+    append(orbit, rounds.signature[touching], start, left);
     for (std::size_t k = touching + 1; k <= touching + count; ++k)
-        entries.push_back(rounds[k]);
-    entries.back().segment = last;
-    entries.back().duration = point.time;
-    return joined(grazing, entries);
+        append(orbit, rounds.signature[k], rounds.starts[k], rounds.durations[k]);
+    orbit.signature.back() = last;
+    orbit.durations.back() = point.time;
+    return joined(orbit);
 }
 
 Orbit begun_after_first_contact(const System& system, const Orbit& like, const FollowedMotion& motion, double period) {
-    Orbit orbit;
-    orbit.parameters = like.parameters;
-    orbit.symmetry = like.symmetry;
+    Orbit orbit{{}, like.parameters, {}, {}, like.symmetry};
     const std::size_t count = motion.segments.size();
     double known = 0;
     for (std::size_t k = 1; k < count; ++k) {
-        orbit.signature.push_back(motion.segments[k]);
-        orbit.starts.push_back(motion.starts[k]);
-        orbit.durations.push_back(motion.durations[k]);
+        append(orbit, motion.segments[k], motion.starts[k], motion.durations[k]);
         known += motion.durations[k];
     }
-    orbit.signature.push_back(like.symmetry ? image_of(system, *like.symmetry, motion.segments[0], like)
-                                            : motion.segments[0]);
-    orbit.starts.push_back(motion.starts[count]);
-    orbit.durations.push_back(period - known);
+    const Segment& first = motion.segments[0];
+    append(orbit, like.symmetry ? image_of(system, *like.symmetry, first, like) : first, motion.starts[count],
+           period - known);
     return orbit;
 }
 

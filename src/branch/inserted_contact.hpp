@@ -9,6 +9,13 @@
 
 namespace graze {
 
+/// Appends a segment to an orbit.
+inline void append(Orbit& orbit, const Segment& segment, const std::vector<double>& start, double duration) {
+    orbit.signature.push_back(segment);
+    orbit.starts.push_back(start);
+    orbit.durations.push_back(duration);
+}
+
 /// Returns a grazing orbit with its touch replaced by a contact. The orbit begins after the contact, with the motion in
 /// other modes until the return to the touching mode (if the contact leaves it), continues with the segments of the
 /// grazing orbit, and ends with the contact. Segments that ended at sections are merged. Empty if the motion does not

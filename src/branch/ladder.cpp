@@ -1,5 +1,6 @@
 #include "graze/branch/ladder.hpp"
 
+#include "branch/bounds.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/grazing/cycle_map.hpp"
 
@@ -24,15 +25,8 @@ SpecialPoint as_grazing(const System& system, const SpecialPoint& point) {
     if (point.type == PointType::chatter)
         throw InputError("the point is the onset of chatter already", "start from a grazing (GR)");
     for (const OrbitTouch& touch : touches_of(system, point.solution.orbit))
-        if (!touch.at_end) {
-            SpecialPoint grazing = point;
-            grazing.type = PointType::grazing;
-            grazing.segment = touch.segment;
-            grazing.event = touch.event;
-            grazing.time = touch.time;
-            grazing.at_end = false;
-            return grazing;
-        }
+        if (!touch.at_end)
+            return grazing_at(point, touch);
     throw InputError(
         fmt::format("the orbit, of type {} ({}), touches nothing", short_name(point.type), name_of(point.type)),
         "start from a grazing (GR), or from a point of a curve of them");
@@ -46,8 +40,7 @@ Ladder::Ladder(const System& system, const SpecialPoint& grazing, const BranchSe
     settings_.validate(system.model());
     SpecialPoint& first = grazings_.front();
     first.parameter = first.solution.orbit.parameters[settings.parameter.place()];
-    if ((settings.least && first.parameter < *settings.least) ||
-        (settings.greatest && first.parameter > *settings.greatest))
+    if (is_outside(settings, first.parameter))
         throw InputError(fmt::format("the grazing from which the ladder starts, at {:.9g}, lies outside of its bounds",
                                      first.parameter),
                          "give wider bounds");

@@ -1,9 +1,10 @@
 #include "graze/branch/located_value.hpp"
 
 #include "branch/point_kind.hpp"
-#include "branch/touched_once.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
+#include "grazing/local_map.hpp"
+#include "grazing/return_map.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/eigen_index.hpp"
 #include "orbit/newton.hpp"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 namespace graze {
@@ -39,6 +41,55 @@ std::vector<ParameterId> with_control(const Model& model, ParameterId control, c
     return all;
 }
 
+constexpr double touching = 1e-6;      // share of the function's size; touches are located far more accurately
+constexpr double slow_approach = 1e-4; // share of the typical rate
+
+/// True when a segment ends with a contact of nearly zero speed, or near an extremum of another watched function.
+bool may_touch_at_ends(const Shooting& equations, const OrbitEvaluation& at, const Certificate& certificate) {
+    for (std::size_t s = 0; s < equations.signature().size(); ++s) {
+        const Segment& segment = equations.signature()[s];
+        if (segment.end == SegmentEnd::event && !is_identity_transition(equations.system(), segment.index) &&
+            !(std::abs(certificate.approach_speeds[s]) > touching * equations.typical_rate(at, s)))
+            return true;
+    }
+    return std::any_of(certificate.end_values.begin(), certificate.end_values.end(), [&](const EndValue& one) {
+        return !(std::abs(one.rate) > slow_approach * equations.typical_rate(at, one.segment, one.event));
+    });
+}
+
+/// Computes cycle maps of a sequence of orbits from existing evaluations, compiling the functions of each mode once.
+class TouchedOnce {
+public:
+    /// @param event the touched event @param certificate of the orbit of the evaluation. The first free parameter of
+    /// the equations is that of the map @return empty where the orbit may have other touches or the contact is not
+    /// rigid; then use `cycle_map`
+    std::optional<CycleMap> map(Shooting& equations, const OrbitEvaluation& at, const Certificate& certificate,
+                                std::size_t event) {
+        const OrbitMinimum* touch = nullptr;
+        for (const OrbitMinimum& one : certificate.minima) {
+            if (!(std::abs(one.value) < touching * one.size))
+                continue;
+            if (touch)
+                return std::nullopt;
+            touch = &one;
+        }
+        if (!touch || touch->event != event || may_touch_at_ends(equations, at, certificate))
+            return std::nullopt;
+        const std::size_t mode = equations.signature()[touch->segment].mode;
+        auto functions = functions_.find(mode);
+        if (functions == functions_.end())
+            functions = functions_.emplace(mode, TouchFunctions(equations.system(), mode, event)).first;
+        CycleMap map = cycle_map_of(equations, at, {touch->segment, event, touch->time, false}, functions->second, 0,
+                                    AskedContacts::rigid);
+        if (!map.exists() || map.contact.order != MapOrder::square_root)
+            return std::nullopt;
+        return map;
+    }
+
+private:
+    std::map<std::size_t, TouchFunctions> functions_; ///< compiled functions, by mode of the touch
+};
+
 } // namespace
 
 void LocatedValueOptions::validate() const {
@@ -62,18 +113,18 @@ std::vector<ParameterId> parameters_but(const Model& model, ParameterId one) {
 /// along a divided path.
 class LocatedValue::Solver {
 public:
-    Solver(const System& system, const SpecialPoint& point, ParameterId control, std::vector<ParameterId> others,
-           const LocatedValueOptions& options)
-        : options_(options), point_(point), others_(std::move(others)), control_(control),
+    Solver(const System& system, const SpecialPoint& point, ParameterId control_parameter,
+           std::vector<ParameterId> other_parameters, const LocatedValueOptions& options)
+        : others(std::move(other_parameters)), control(control_parameter), options_(options), point_(point),
           simulation_(system, {}, {}, integration(options.orbit.tolerance)),
-          equations_(simulation_, point.solution.orbit, with_control(system.model(), control, others_)),
+          equations_(simulation_, point.solution.orbit, with_control(system.model(), control, others)),
           at_(equations_.evaluation()), tried_(equations_.evaluation()), nominal_(equations_.evaluation()) {
         options_.validate();
         Eigen::VectorXd unknowns = equations_.unknowns_of(point.solution.orbit);
         if (!equations_.evaluate(unknowns, nominal_))
             throw InputError(fmt::format("the orbit cannot be followed: {}", nominal_.problem), "choose another point");
         make_condition(nominal_);
-        const Eigen::VectorXd wanted = unknowns.tail(index(others_.size()));
+        const Eigen::VectorXd wanted = unknowns.tail(index(others.size()));
         std::string problem;
         std::size_t iterations = 0;
         if (!correct(unknowns, wanted, iterations, problem))
@@ -82,30 +133,23 @@ public:
                 "choose another point, or another parameter whose value is to follow");
         nominal_ = at_;
         point_.solution.orbit = equations_.orbit_of(at_.unknowns);
-        own_ = point_;
+        own = point_;
         make_condition(nominal_);
         if (!condition_->evaluate(equations_, nominal_) || !directions_at(nominal_, nominal_directions_))
             throw InputError(fmt::format("the value of {} does not follow from the other parameters",
                                          system.model().independent_parameters()[control.place()]),
                              "choose one that moves the orbit from the point");
         const Eigen::Index place = index(equations_.layout().parameter(0));
-        value_ = nominal_.unknowns[place];
-        values_.assign(wanted.begin(), wanted.end());
-        for (Eigen::Index i = 0; i < index(others_.size()); ++i)
-            derivatives_.push_back(nominal_directions_(place, i));
+        value = nominal_.unknowns[place];
+        values.assign(wanted.begin(), wanted.end());
+        for (Eigen::Index i = 0; i < index(others.size()); ++i)
+            derivatives.push_back(nominal_directions_(place, i));
     }
 
-    ParameterId control() const { return control_; }
-    const std::vector<ParameterId>& others() const { return others_; }
-    double value() const { return value_; }
-    const std::vector<double>& values() const { return values_; }
-    const std::vector<double>& derivatives() const { return derivatives_; }
-    const Orbit& orbit() const { return own_.solution.orbit; }
-
-    LocatedSolution solve(std::span<const double> values) {
-        require_size(values.size(), others_.size(), "values of parameters");
-        require_finite(values, "values of parameters");
-        const Eigen::VectorXd target = Eigen::Map<const Eigen::VectorXd>(values.data(), index(values.size()));
+    LocatedSolution solve(std::span<const double> asked) {
+        require_size(asked.size(), others.size(), "values of parameters");
+        require_finite(asked, "values of parameters");
+        const Eigen::VectorXd target = vector_of(asked);
         LocatedSolution result;
         result.parts = 1;
         bool moved = false;
@@ -117,11 +161,17 @@ public:
         if (result.parts > 0)
             describe(result);
         if (moved) { // restore, so that results do not depend on earlier calls
-            point_ = own_;
+            point_ = own;
             make_condition(nominal_);
         }
         return result;
     }
+
+    SpecialPoint own; ///< the point at the nominal solution
+    std::vector<ParameterId> others;
+    ParameterId control;
+    double value = 0;
+    std::vector<double> values, derivatives;
 
 private:
     void make_condition(const OrbitEvaluation& at) {
@@ -141,9 +191,9 @@ private:
         if (!std::isfinite(unit) || unit == 0)
             return std::nullopt;
         lack = condition_->value() / unit;
-        Eigen::MatrixXd borders = Eigen::MatrixXd::Zero(1 + index(others_.size()), index(equations_.unknowns()));
+        Eigen::MatrixXd borders = Eigen::MatrixXd::Zero(1 + index(others.size()), index(equations_.unknowns()));
         borders.row(0) = condition_->gradient() / unit;
-        for (std::size_t i = 0; i < others_.size(); ++i) {
+        for (std::size_t i = 0; i < others.size(); ++i) {
             const Eigen::Index place = index(equations_.layout().parameter(1 + i));
             borders(1 + index(i), place) = 1 / at.scales[place];
         }
@@ -157,13 +207,13 @@ private:
         const auto system = closed(at, lack);
         if (!system)
             return false;
-        directions.resize(index(equations_.unknowns()), index(others_.size()));
+        directions.resize(index(equations_.unknowns()), index(others.size()));
         Eigen::VectorXd direction;
         // The system must be regular also if there are no other parameters.
-        if (!equations_.solve(at, *system, Eigen::VectorXd::Zero(1 + index(others_.size())), true, direction))
+        if (!equations_.solve(at, *system, Eigen::VectorXd::Zero(1 + index(others.size())), true, direction))
             return false;
-        for (std::size_t i = 0; i < others_.size(); ++i) {
-            Eigen::VectorXd right = Eigen::VectorXd::Zero(1 + index(others_.size()));
+        for (std::size_t i = 0; i < others.size(); ++i) {
+            Eigen::VectorXd right = Eigen::VectorXd::Zero(1 + index(others.size()));
             right[1 + index(i)] = 1 / at.scales[index(equations_.layout().parameter(1 + i))];
             if (!equations_.solve(at, *system, right, true, direction))
                 return false;
@@ -255,26 +305,17 @@ private:
     /// Finds a touch that has left its segment in the other segments of the predicted orbit.
     bool move_touch_to_segment(const OrbitEvaluation& from, const Eigen::MatrixXd& directions,
                                const Eigen::VectorXd& wanted) {
-        constexpr double near = 1e-2; // share of the function's size along the arc
         if (point_.type != PointType::grazing || point_.at_end)
             return false;
         const Eigen::VectorXd change = directions * (wanted - from.unknowns.tail(wanted.size()));
         if (!(size_of(change) <= largest_change) || !equations_.evaluate(from.unknowns + change, at_))
             return false;
-        double nearest = near;
-        bool found = false;
-        SpecialPoint passed = point_;
-        passed.solution.orbit = equations_.orbit_of(at_.unknowns);
-        for (const OrbitMinimum& minimum : certify(equations_, at_).minima)
-            if (minimum.event == point_.event && std::abs(minimum.value) < nearest * minimum.size) {
-                nearest = std::abs(minimum.value) / minimum.size;
-                passed.segment = minimum.segment;
-                passed.time = minimum.time;
-                found = true;
-            }
-        if (!found || passed.segment == point_.segment)
+        const auto touch = nearest_touch(certify(equations_, at_), point_.event);
+        if (!touch || touch->segment == point_.segment)
             return false;
-        point_ = std::move(passed);
+        point_.solution.orbit = equations_.orbit_of(at_.unknowns);
+        point_.segment = touch->segment;
+        point_.time = touch->time;
         make_condition(at_);
         return true;
     }
@@ -324,17 +365,13 @@ private:
     }
 
     LocatedValueOptions options_;
-    SpecialPoint point_, own_; ///< point whose condition is held; the point at the nominal solution
-    std::vector<ParameterId> others_;
-    ParameterId control_;
+    SpecialPoint point_; ///< point whose condition is held
     Simulation simulation_;
     Shooting equations_;
     std::unique_ptr<OrbitCondition> condition_;
     OrbitEvaluation at_, tried_;
     OrbitEvaluation nominal_;            ///< evaluation at the point
     Eigen::MatrixXd nominal_directions_; ///< derivatives of the unknowns there, a column for each other parameter
-    double value_ = 0;
-    std::vector<double> values_, derivatives_;
     TouchedOnce maps_;
 };
 
@@ -345,22 +382,22 @@ LocatedValue::~LocatedValue() = default;
 LocatedValue::LocatedValue(LocatedValue&&) noexcept = default;
 
 ParameterId LocatedValue::control() const {
-    return solver_->control();
+    return solver_->control;
 }
 const std::vector<ParameterId>& LocatedValue::others() const {
-    return solver_->others();
+    return solver_->others;
 }
 double LocatedValue::value() const {
-    return solver_->value();
+    return solver_->value;
 }
 const std::vector<double>& LocatedValue::values() const {
-    return solver_->values();
+    return solver_->values;
 }
 const Orbit& LocatedValue::orbit() const {
-    return solver_->orbit();
+    return solver_->own.solution.orbit;
 }
 const std::vector<double>& LocatedValue::derivatives() const {
-    return solver_->derivatives();
+    return solver_->derivatives;
 }
 LocatedSolution LocatedValue::operator()(std::span<const double> values) {
     return solver_->solve(values);

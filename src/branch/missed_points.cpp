@@ -30,17 +30,9 @@ Count unstable(const MultiplierList& multipliers, double margin) {
 
 /// Returns by how many a point of this type changes the number of unstable multipliers; 0 for other types.
 int crossing_at(PointType type) {
-    switch (type) {
-    case PointType::fold:
-    case PointType::branch_point:
-    case PointType::flip:
-    case PointType::asymmetry:
-        return 1;
-    case PointType::torus:
-        return 2;
-    default:
-        return 0;
-    }
+    const bool single = type == PointType::fold || type == PointType::branch_point || type == PointType::flip ||
+                        type == PointType::asymmetry;
+    return single ? 1 : type == PointType::torus ? 2 : 0;
 }
 
 /// True when crossings of `singles` single multipliers and `pairs` pairs may change one number into the other.
@@ -61,7 +53,7 @@ public:
     /// Bisects a part of the step until the change of the number of unstable multipliers is explained.
     void search(const StepSample& low, const StepSample& high) {
         constexpr double narrow = 1e-9; // as a fraction of the step
-        const Count before = unstable(low.multipliers, margin), after = unstable(high.multipliers, margin);
+        const Count before = unstable(low.multipliers(), margin), after = unstable(high.multipliers(), margin);
         if (may_explain(before, after, 0, 0))
             return;
         std::vector<SpecialPoint> located;
@@ -81,14 +73,13 @@ public:
     void search_beside_known(const StepSample& low, const StepSample& high) {
         constexpr double beside = 1e-4; // fraction of the step
         StepSample from = low, here;
-        BranchPoint there;
         for (const SpecialPoint& one : known_) {
             const double at = state_.last_step().fraction(one.arclength);
             if (crossing_at(one.type) == 0)
                 continue;
-            if (at - beside > from.fraction && sample(at - beside, here, there))
+            if (at - beside > from.fraction && sample(at - beside, here))
                 search(from, here);
-            if (!(at + beside < high.fraction) || !sample(at + beside, from, there))
+            if (!(at + beside < high.fraction) || !sample(at + beside, from))
                 return;
         }
         search(from, high);
@@ -99,39 +90,41 @@ public:
 private:
     static constexpr double margin = 1e-9; // tolerance of the modulus of a multiplier
 
-    bool sample(double fraction, StepSample& here, BranchPoint& there) {
-        ContinuationPoint at;
-        if (!state_.continuation().between(fraction, at) || !state_.describe(at, there, here.tests))
-            return false;
-        here.fraction = fraction;
-        here.multipliers = multipliers_followed(there.solution);
-        return here.multipliers.size() == size_;
+    bool sample(double fraction, StepSample& here) {
+        auto there = state_.describe_between(fraction);
+        if (there)
+            here = {fraction, std::move(*there)};
+        return there && here.multipliers().size() == size_;
     }
     /// Samples a point inside the interval whose number of unstable multipliers is certain.
     bool sample_between(const StepSample& low, const StepSample& high, StepSample& middle) {
         constexpr double shares[] = {0.5, 0.4, 0.6, 0.25, 0.75, 0.1, 0.9};
-        BranchPoint there;
         return std::any_of(std::begin(shares), std::end(shares), [&](double share) {
-            return sample(low.fraction + share * (high.fraction - low.fraction), middle, there) &&
-                   unstable(middle.multipliers, margin).is_certain();
+            return sample(low.fraction + share * (high.fraction - low.fraction), middle) &&
+                   unstable(middle.multipliers(), margin).is_certain();
         });
     }
 
+    /// Returns the indices of tests of crossing multipliers that change their sign.
+    static std::vector<std::size_t> changed_tests(const StepSample& low, const StepSample& high) {
+        const std::vector<BranchTest>&first = low.here.tests, &last = high.here.tests;
+        std::vector<std::size_t> changed;
+        for (std::size_t i = 0; i < first.size() && first.size() == last.size(); ++i)
+            if (crossing_at(first[i].type) > 0 && first[i].value * last[i].value < 0)
+                changed.push_back(i);
+        return changed;
+    }
     bool is_explained_by_tests(const StepSample& low, const StepSample& high, std::vector<SpecialPoint>& located) {
         int singles = 0, pairs = 0;
-        std::vector<std::size_t> changed;
-        for (std::size_t i = 0; i < low.tests.size() && low.tests.size() == high.tests.size(); ++i) {
-            const int count = crossing_at(low.tests[i].type);
-            if (count == 0 || !(low.tests[i].value * high.tests[i].value < 0))
-                continue;
-            (count == 1 ? singles : pairs) += 1;
-            changed.push_back(i);
-        }
+        const std::vector<std::size_t> changed = changed_tests(low, high);
+        for (const std::size_t i : changed)
+            (crossing_at(low.here.tests[i].type) == 1 ? singles : pairs) += 1;
         if (changed.empty() ||
-            !may_explain(unstable(low.multipliers, margin), unstable(high.multipliers, margin), singles, pairs))
+            !may_explain(unstable(low.multipliers(), margin), unstable(high.multipliers(), margin), singles, pairs))
             return false;
         for (const std::size_t i : changed) {
-            auto special = locate_(i, {low.fraction, low.tests[i].value}, {high.fraction, high.tests[i].value});
+            auto special =
+                locate_(i, {low.fraction, low.here.tests[i].value}, {high.fraction, high.here.tests[i].value});
             if (!special)
                 return false;
             located.push_back(std::move(*special));
@@ -142,10 +135,10 @@ private:
     /// Reports several multipliers that cross at the same point, as those of identical devices; no test function
     /// changes its sign there.
     void note_coincident(const StepSample& low, const StepSample& high) {
-        const Count before = unstable(low.multipliers, margin), after = unstable(high.multipliers, margin);
+        const Count before = unstable(low.multipliers(), margin), after = unstable(high.multipliers(), margin);
         const auto rank = static_cast<std::size_t>(std::min(before.most, after.most));
         const auto count = static_cast<std::size_t>(std::abs(after.most - before.most));
-        const MultiplierList sorted = by_modulus(low.multipliers);
+        const MultiplierList sorted = by_modulus(low.multipliers());
         if (count == 0 || rank + count > sorted.size())
             return;
         std::size_t ones = 0, minus_ones = 0;
@@ -170,12 +163,10 @@ private:
             note(low, high, rank, PointType::torus, in_words(others, "the unit circle"));
     }
     static std::optional<PointType> singular_type(const StepSample& low, const StepSample& high) {
-        for (std::size_t i = 0; i < low.tests.size() && low.tests.size() == high.tests.size(); ++i) {
-            const PointType type = low.tests[i].type;
-            if ((type == PointType::fold || type == PointType::branch_point) &&
-                low.tests[i].value * high.tests[i].value < 0)
+        for (const std::size_t i : changed_tests(low, high))
+            if (const PointType type = low.here.tests[i].type;
+                type == PointType::fold || type == PointType::branch_point)
                 return type;
-        }
         return std::nullopt;
     }
     static bool is_near(std::complex<double> multiplier, double number) {
@@ -191,9 +182,8 @@ private:
     void note(const StepSample& low, const StepSample& high, std::size_t rank, PointType type, std::string detail) {
         constexpr double close = 1e-6, not_there = 1e-3;
         constexpr int most = 60;
-        BranchPoint there, best;
-        const auto growth = [&](const StepSample& here) { return std::abs(by_modulus(here.multipliers)[rank]) - 1; };
-        StepSample here, begin = low, end = high;
+        const auto growth = [&](const StepSample& here) { return std::abs(by_modulus(here.multipliers())[rank]) - 1; };
+        StepSample here, best, begin = low, end = high;
         double distance = std::min(std::abs(growth(low)), std::abs(growth(high))), at = low.fraction;
         bool any = false;
         for (int i = 0; i < most; ++i) {
@@ -201,12 +191,12 @@ private:
             const double fraction = i % 2 == 0
                                         ? begin.fraction - first * (end.fraction - begin.fraction) / (last - first)
                                         : 0.5 * (begin.fraction + end.fraction);
-            if (!(fraction > begin.fraction && fraction < end.fraction) || !sample(fraction, here, there))
+            if (!(fraction > begin.fraction && fraction < end.fraction) || !sample(fraction, here))
                 break;
             const double value = growth(here);
             if (!any || std::abs(value) < distance) {
                 distance = std::abs(value);
-                best = there;
+                best = here;
                 at = fraction;
                 any = true;
             }
@@ -214,11 +204,11 @@ private:
                 break;
             (value * first > 0 ? begin : end) = here;
         }
-        if (!any && !sample(at, here, best))
+        if (!any && !sample(at, best))
             return;
         if (!(distance < not_there)) // the step has jumped to another branch
             return;
-        SpecialPoint special = special_of_type(type, best);
+        SpecialPoint special = special_of_type(type, best.here.point);
         special.located = distance < close;
         special.detail = std::move(detail);
         if (!is_known(special, low, high))
@@ -243,10 +233,6 @@ private:
 
 } // namespace
 
-const std::vector<std::complex<double>>& multipliers_followed(const OrbitSolution& solution) {
-    return solution.half_multipliers.empty() ? solution.multipliers : solution.half_multipliers;
-}
-
 std::vector<SpecialPoint> missed_points(BranchState& state, const StepSample& low, const StepSample& high,
                                         const std::vector<SpecialPoint>& found, const TestLocator& locate) {
     constexpr double certain = 1e-6; // of the modulus of a multiplier
@@ -255,11 +241,11 @@ std::vector<SpecialPoint> missed_points(BranchState& state, const StepSample& lo
         singles += crossing_at(one.type) == 1 ? 1 : 0;
         pairs += crossing_at(one.type) == 2 ? 1 : 0;
     }
-    if (low.multipliers.empty() || low.multipliers.size() != high.multipliers.size() ||
-        may_explain(unstable(low.multipliers, certain), unstable(high.multipliers, certain), singles, pairs))
+    if (low.multipliers().empty() || low.multipliers().size() != high.multipliers().size() ||
+        may_explain(unstable(low.multipliers(), certain), unstable(high.multipliers(), certain), singles, pairs))
         return {};
-    Search search(state, locate, found, low.multipliers.size());
-    if (may_explain(unstable(low.multipliers, certain), unstable(high.multipliers, certain), 0, 0))
+    Search search(state, locate, found, low.multipliers().size());
+    if (may_explain(unstable(low.multipliers(), certain), unstable(high.multipliers(), certain), 0, 0))
         search.search_beside_known(low, high);
     else
         search.search(low, high);

@@ -10,11 +10,16 @@
 
 namespace graze {
 
-/// A point of the last step, at a fraction of it, with its tests and multipliers.
+/// Returns the multipliers of the half map for half orbits, otherwise of the orbit.
+inline const std::vector<std::complex<double>>& multipliers_followed(const OrbitSolution& solution) {
+    return solution.half_multipliers.empty() ? solution.multipliers : solution.half_multipliers;
+}
+
+/// A point of the last step, at a fraction of it.
 struct StepSample {
     double fraction = 0;
-    std::vector<BranchTest> tests;
-    std::vector<std::complex<double>> multipliers;
+    DescribedPoint here;
+    const std::vector<std::complex<double>>& multipliers() const { return multipliers_followed(here.point.solution); }
 };
 
 /// Finds points of the last step at which multipliers cross the unit circle without a detected sign change. A test
@@ -26,8 +31,5 @@ struct StepSample {
 using TestLocator = std::function<std::optional<SpecialPoint>(std::size_t test, const TestValue&, const TestValue&)>;
 std::vector<SpecialPoint> missed_points(BranchState& state, const StepSample& low, const StepSample& high,
                                         const std::vector<SpecialPoint>& found, const TestLocator& locate);
-
-/// Returns the multipliers of the half map for half orbits, otherwise of the orbit.
-const std::vector<std::complex<double>>& multipliers_followed(const OrbitSolution& solution);
 
 } // namespace graze

@@ -60,8 +60,9 @@ std::size_t segment_named(const Model& model, const Signature& signature, const 
 class OrbitMonitors::Evaluator {
 public:
     Evaluator(const System& system, const Signature& signature, std::vector<Monitor> monitors, double tolerance)
-        : monitors_(std::move(monitors)), system_(system), simulation_(system, {}, observed(), options(tolerance)),
-          flow_(flow_of(simulation_)), roots_(simulation_.order()) {
+        : monitors_(std::move(monitors)), system_(system),
+          simulation_(system, {}, observed(), {.tolerance = tolerance}), flow_(flow_of(simulation_)),
+          roots_(simulation_.order()) {
         for (const Monitor& monitor : monitors_)
             functions_.push_back(is_at_point(monitor.kind) ? system.function_of({&monitor.expression, 1}) : Function());
         set_signature(signature);
@@ -121,11 +122,6 @@ private:
         double integral = 0, time = 0;
     };
 
-    static SimulationOptions options(double tolerance) {
-        SimulationOptions result;
-        result.tolerance = tolerance;
-        return result;
-    }
     /// Returns the expressions that are needed as series along arcs.
     std::vector<Expression> observed() {
         std::vector<Expression> result;

@@ -40,6 +40,15 @@ PointType where_curves_meet(const TestedPoint& point, PointType own) {
                                     : own;
 }
 
+/// @param type flip or, for half orbits, asymmetry
+BranchTest test_of_multiplier_minus_one(const TestedPoint& point, PointType type) {
+    const bool tested =
+        point.equations.symmetry().has_value() == (type == PointType::asymmetry) && !is_kept(point, type);
+    return {.type = where_curves_meet(point, type),
+            .value = tested ? point.at.system.antiperiodic_determinant() : not_a_number,
+            .noise = tested ? point.at.system.antiperiodic_noise() : 0};
+}
+
 /// Returns the distance of the nearest multiplier from a number.
 double distance_to(const OrbitSolution& solution, double wanted) {
     double nearest = std::numeric_limits<double>::infinity();
@@ -67,30 +76,24 @@ bool multipliers_agree(BranchState& state, const SpecialPoint& special, const Di
     // Scaled arclength over which the change of multipliers is measured; accepted distance in units of this change;
     // distance that is always rejected.
     constexpr double beside = 1e-10, times = 50, far = 2;
-    Continuation& continuation = state.continuation();
     const LastStep step = state.last_step();
-    ContinuationPoint at;
-    BranchPoint there;
-    std::vector<BranchTest> tests;
-    const auto describe = [&](double fraction) {
-        return continuation.between(fraction, at) && state.describe(at, there, tests);
-    };
     if (multipliers_followed(special.solution).empty()) {
         // Multipliers are undefined all along a curve of contacts of zero speed, or only here, where another contact
         // has zero speed.
         constexpr double aside = 1e-4, near = 0.1; // fraction of the step; bound of the change of multipliers over it
-        if (!state.settings().kept || !describe(step.fraction(special.arclength) - aside))
-            return false;
-        return multipliers_followed(there.solution).empty() || distance(there.solution) < near;
+        const auto there =
+            state.settings().kept ? state.describe_between(step.fraction(special.arclength) - aside) : std::nullopt;
+        return there && (multipliers_followed(there->point.solution).empty() || distance(there->point.solution) < near);
     }
     const double here = distance(special.solution);
     if (here <= close || !(here < far))
         return here <= close;
     double change = 0;
     for (const double aside : {-beside, beside}) {
-        if (!describe(step.fraction(special.arclength + aside)))
+        const auto there = state.describe_between(step.fraction(special.arclength + aside));
+        if (!there)
             return false;
-        change = std::max(change, std::abs(distance(there.solution) - here));
+        change = std::max(change, std::abs(distance(there->point.solution) - here));
     }
     return here <= times * change;
 }
@@ -104,6 +107,32 @@ bool has_multiplier(BranchState& state, const SpecialPoint& special, double want
 bool has_pair_on_circle(BranchState& state, const SpecialPoint& special) {
     constexpr double close = 1e-5;
     return multipliers_agree(state, special, pair_off_circle, close);
+}
+
+std::string in_words(const FoldForm& form, const BranchState& state) {
+    if (!form.turns)
+        return "the side on which two orbits are is not decided: a is zero up to round-off";
+    const std::string side = fmt::format("two orbits at {} {}", form.above ? "greater" : "smaller",
+                                         state.model().independent_parameters()[state.settings().parameter.place()]);
+    return form.is_simple ? fmt::format("{}, a = {:.6g}", side, form.coefficient)
+                          : side + ", a has no value: two multipliers are 1";
+}
+
+/// @param supercritical sign of the coefficient for which the bifurcating orbit is stable; @param several reason why it
+/// may be undefined
+std::string in_words(const Criticality& form, const char* name, int supercritical, const char* several) {
+    if (!form.is_simple)
+        return fmt::format("{} has no value: {}", name, several);
+    if (!form.is_decided())
+        return fmt::format("criticality not decided, {} = 0 +- {:.1e}", name, form.error);
+    return fmt::format("{}critical, {} = {:.6g}", form.value() * supercritical > 0 ? "super" : "sub", name,
+                       form.value());
+}
+
+/// Notes that the multiplier -1 belongs to a half orbit: a symmetry breaking, not a flip.
+void describe_asymmetry(const BranchState& state, SpecialPoint& special) {
+    const bool of_half = special.solution.orbit.symmetry || state.settings().kept->type == PointType::asymmetry;
+    special.detail = of_half ? "of a loss of symmetry" : "";
 }
 
 } // namespace
@@ -126,29 +155,6 @@ void test_fold(const TestedPoint& point, std::vector<BranchTest>& tests) {
     tests.push_back(test);
 }
 
-namespace {
-
-std::string in_words(const FoldForm& form, const BranchState& state) {
-    if (!form.turns)
-        return "the side on which two orbits are is not decided: a is zero up to round-off";
-    const std::string side = fmt::format("two orbits at {} {}", form.above ? "greater" : "smaller",
-                                         state.model().independent_parameters()[state.settings().parameter.place()]);
-    return form.is_simple ? fmt::format("{}, a = {:.6g}", side, form.coefficient)
-                          : side + ", a has no value: two multipliers are 1";
-}
-
-/// @param supercritical sign of the coefficient for which the bifurcating orbit is stable; @param several reason why it
-/// may be undefined
-std::string in_words(const Criticality& form, const char* name, int supercritical, const char* several) {
-    if (!form.is_simple)
-        return fmt::format("{} has no value: {}", name, several);
-    if (!form.is_decided())
-        return fmt::format("criticality not decided, {} = 0 +- {:.1e}", name, form.error);
-    return fmt::format("{}critical, {} = {:.6g}", form.value * supercritical > 0 ? "super" : "sub", name, form.value);
-}
-
-} // namespace
-
 /// The side with two orbits is reported for branches in one parameter only.
 bool confirm_fold(BranchState& state, SpecialPoint& special, const BranchTest&) {
     const OrbitProblem& problem = state.problem();
@@ -166,21 +172,16 @@ std::unique_ptr<OrbitCondition> condition_of_fold(const OrbitEquations& equation
 // Flips. A multiplier -1 of the half map of a symmetric orbit breaks the symmetry instead of doubling the period.
 
 void test_flip(const TestedPoint& point, std::vector<BranchTest>& tests) {
-    const bool tested = !point.equations.symmetry() && !is_kept(point, PointType::flip);
-    tests.push_back({.type = where_curves_meet(point, PointType::flip),
-                     .value = tested ? point.at.system.antiperiodic_determinant() : not_a_number,
-                     .noise = tested ? point.at.system.antiperiodic_noise() : 0});
+    tests.push_back(test_of_multiplier_minus_one(point, PointType::flip));
 }
 
 void test_asymmetry(const TestedPoint& point, std::vector<BranchTest>& tests) {
-    const bool tested = point.equations.symmetry() && !is_kept(point, PointType::asymmetry);
-    tests.push_back({.type = where_curves_meet(point, PointType::asymmetry),
-                     .value = tested ? point.at.system.antiperiodic_determinant() : not_a_number,
-                     .noise = tested ? point.at.system.antiperiodic_noise() : 0});
+    tests.push_back(test_of_multiplier_minus_one(point, PointType::asymmetry));
 }
 
 bool confirm_flip(BranchState& state, SpecialPoint& special, const BranchTest&) {
-    if (const auto form = flip_criticality(state.problem().equations(), state.problem().evaluation()))
+    SecondVariation variation(state.problem().equations());
+    if (const auto form = flip_criticality(state.problem().equations(), state.problem().evaluation(), variation))
         special.detail = in_words(*form, "c", 1, "two multipliers are -1");
     return special.located && has_multiplier(state, special, -1);
 }
@@ -239,22 +240,13 @@ void test_torus(const TestedPoint& point, std::vector<BranchTest>& tests) {
 }
 
 bool confirm_torus(BranchState& state, SpecialPoint& special, const BranchTest&) {
-    if (const auto form = torus_criticality(state.problem().equations(), state.problem().evaluation()))
+    SecondVariation variation(state.problem().equations());
+    if (const auto form = torus_criticality(state.problem().equations(), state.problem().evaluation(), variation))
         special.detail = in_words(*form, "d", -1, "two pairs are one");
     return special.located && has_pair_on_circle(state, special);
 }
 
-namespace {
-
-/// Notes that the multiplier -1 belongs to a half orbit: a symmetry breaking, not a flip.
-void describe_asymmetry(const BranchState& state, SpecialPoint& special) {
-    const bool of_half = special.solution.orbit.symmetry || state.settings().kept->type == PointType::asymmetry;
-    special.detail = of_half ? "of a loss of symmetry" : "";
-}
-
-} // namespace
-
-bool confirm_fold_flip(BranchState& state, SpecialPoint& special, const BranchTest&) {
+bool confirm_beside_flip(BranchState& state, SpecialPoint& special, const BranchTest&) {
     describe_asymmetry(state, special);
     return special.located;
 }
@@ -283,11 +275,6 @@ bool confirm_resonance(BranchState&, SpecialPoint& special, const BranchTest& te
 bool confirm_cusp(BranchState& state, SpecialPoint& special, const BranchTest&) {
     if (const auto coefficient = cusp_coefficient(state.problem().equations(), state.problem().evaluation()))
         special.detail = fmt::format("c = {:.6g}", *coefficient);
-    return special.located;
-}
-
-bool confirm_generalised(BranchState& state, SpecialPoint& special, const BranchTest&) {
-    special.detail = state.settings().kept->type == PointType::asymmetry ? "of a loss of symmetry" : "";
     return special.located;
 }
 

@@ -4,34 +4,13 @@
 
 namespace graze {
 
-// Tests, confirmation and conditions of points with multipliers on the unit circle, and of their degeneracies: see
-// PointRule.
+// Functions of points with multipliers on the unit circle, and of their degeneracies: see PointRule.
 
-void test_fold(const TestedPoint& point, std::vector<BranchTest>& tests);
-bool confirm_fold(BranchState& state, SpecialPoint& special, const BranchTest&);
-std::unique_ptr<OrbitCondition> condition_of_fold(const OrbitEquations& equations, const OrbitEvaluation& at,
-                                                  const SpecialPoint&);
-void test_flip(const TestedPoint& point, std::vector<BranchTest>& tests);
-void test_asymmetry(const TestedPoint& point, std::vector<BranchTest>& tests);
-bool confirm_flip(BranchState& state, SpecialPoint& special, const BranchTest&);
-std::unique_ptr<OrbitCondition> condition_of_flip(const OrbitEquations& equations, const OrbitEvaluation& at,
-                                                  const SpecialPoint&);
-std::vector<BranchStart> leave_flip(const System& system, const SpecialPoint& point, const BranchSettings& settings);
-std::vector<BranchStart> leave_asymmetry(const System& system, const SpecialPoint& point,
-                                         const BranchSettings& settings);
-void test_branch_point(const TestedPoint& point, std::vector<BranchTest>& tests);
-bool confirm_branch_point(BranchState& state, SpecialPoint& special, const BranchTest&);
-std::vector<BranchStart> leave_branch_point(const System& system, const SpecialPoint& point,
-                                            const BranchSettings& settings);
-void test_torus(const TestedPoint& point, std::vector<BranchTest>& tests);
-bool confirm_torus(BranchState& state, SpecialPoint& special, const BranchTest&);
-std::unique_ptr<OrbitCondition> condition_of_torus(const OrbitEquations& equations, const OrbitEvaluation& at,
-                                                   const SpecialPoint&);
-bool confirm_fold_flip(BranchState& state, SpecialPoint& special, const BranchTest&);
-bool confirm_with_torus(BranchState& state, SpecialPoint& special, const BranchTest&);
-bool confirm_resonance(BranchState& state, SpecialPoint& special, const BranchTest&);
-bool confirm_cusp(BranchState& state, SpecialPoint& special, const BranchTest&);
-bool confirm_generalised(BranchState& state, SpecialPoint& special, const BranchTest&);
+PointRule::Test test_fold, test_flip, test_asymmetry, test_branch_point, test_torus;
+PointRule::Confirm confirm_fold, confirm_flip, confirm_branch_point, confirm_torus, confirm_beside_flip,
+    confirm_with_torus, confirm_resonance, confirm_cusp;
+PointRule::Condition condition_of_fold, condition_of_flip, condition_of_torus;
+PointRule::Leave leave_flip, leave_asymmetry, leave_branch_point;
 
 /// Adds the tests of a degeneracy along a curve, which the curve's condition provides.
 template <PointType Type>

@@ -27,14 +27,13 @@ public:
     static constexpr std::size_t most_unknowns = 600;
 
     Expansion(const OrbitEquations& equations, const OrbitEvaluation& at, SecondVariation& variation)
-        : equations_(equations), shifted_(at), variation_(variation),
-          columns_(at.scales.head(index(equations.layout().start_of(at.pieces.size())))), rows_(columns_.size()),
-          fixed_(MatrixXd::Zero(columns_.size(), columns_.size())), closing_(fixed_) {
+        : equations_(equations), shifted_(at), variation_(variation), columns_(units_of_columns(equations, at)),
+          rows_(units_of_rows(equations, at)), fixed_(MatrixXd::Zero(columns_.size(), columns_.size())),
+          closing_(fixed_) {
         const auto n = index(equations.layout().states()), pieces = index(at.pieces.size());
         for (Eigen::Index k = 0; k < pieces; ++k) { // blocks are already scaled
             const CyclicSystem::Block& block = at.system.block(static_cast<std::size_t>(k));
             const Eigen::Index place = k * (n + 1);
-            rows_.segment(place, n + 1) << at.pieces[static_cast<std::size_t>(k)].condition_unit, at.scales.head(n);
             fixed_.block(place, place, n + 1, n + 1) += block.own;
             const bool closes = k + 1 == pieces;
             (closes ? closing_ : fixed_).block(place, closes ? 0 : place + n + 1, n + 1, n) += block.next;
@@ -156,17 +155,10 @@ constexpr double round_off_of_product = 1e-12;
 /// a located point are less accurate than round-off.
 constexpr double least_product = 1e-9;
 
-/// A coefficient with its error due to round-off.
-struct Cubic {
-    Complex value;
-    double error = 0;
-    bool is_simple = true; ///< false: the multiplier is not simple, so that the coefficient is undefined
-};
-
 /// Computes F_3(q, q, q*) + 2 F_2(q, z_11) + F_2(q*, z_20), projected on the critical direction. z_11 and z_20 are the
 /// second-order corrections of the mean and of the second harmonic.
-std::optional<Cubic> cubic_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at, Complex multiplier,
-                                       SecondVariation& variation) {
+std::optional<Criticality> cubic_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                             Complex multiplier, SecondVariation& variation) {
     if (equations.layout().start_of(at.pieces.size()) > Expansion::most_unknowns)
         return std::nullopt;
     Expansion expansion(equations, at, variation);
@@ -194,26 +186,11 @@ std::optional<Cubic> cubic_coefficient(const OrbitEquations& equations, const Or
     const double spread = 2 * mean_spread.norm() + second_spread.norm();
     const double error = spread * size + with_q.norm() * (second.norm() + 2 * mean.norm()) + parts * q.norm();
     const bool is_simple = std::abs(product) > least_product * left.norm() * (expansion.closing() * q).norm();
-    const Cubic result{-(third + rest) / product, round_off_of_product * error / std::abs(product), is_simple};
-    if (!std::isfinite(result.value.real()) || !std::isfinite(result.value.imag()) || !std::isfinite(result.error))
+    const Criticality result{-(third + rest) / product, round_off_of_product * error / std::abs(product), is_simple};
+    if (!std::isfinite(result.form.real()) || !std::isfinite(result.form.imag()) || !std::isfinite(result.error))
         return std::nullopt;
     return result;
 }
-
-} // namespace
-
-std::optional<double> flip_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    SecondVariation variation(equations);
-    return flip_coefficient(equations, at, variation);
-}
-
-std::optional<double> flip_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at,
-                                       SecondVariation& variation) {
-    const auto cubic = cubic_coefficient(equations, at, -1, variation);
-    return cubic && cubic->is_simple ? std::optional(cubic->value.real() / 6) : std::nullopt;
-}
-
-namespace {
 
 /// The null vectors at a multiplier 1, the right one with a first start of length 1, and their product.
 struct Fold {
@@ -228,10 +205,6 @@ struct Fold {
     VectorXd right, left;
     double product = 0;
 };
-
-std::vector<double> list_of(const VectorXd& vector) {
-    return {vector.begin(), vector.end()};
-}
 
 } // namespace
 
@@ -260,8 +233,8 @@ std::optional<FoldForm> fold_form(const OrbitEquations& equations, const OrbitEv
                     .turns = turns,
                     .is_simple = is_simple,
                     .rate = rate,
-                    .critical = list_of(critical),
-                    .adjoint = list_of(adjoint)};
+                    .critical = numbers_of(critical),
+                    .adjoint = numbers_of(adjoint)};
 }
 
 /// Like the coefficient of a flip, but the second-order correction is solved in a bordered system, because the matrix
@@ -292,37 +265,38 @@ std::optional<double> cusp_coefficient(const OrbitEquations& equations, const Or
     return std::isfinite(result) ? std::optional(result) : std::nullopt;
 }
 
-std::optional<double> torus_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    SecondVariation variation(equations);
-    const auto form = torus_form(equations, at, variation);
-    return form ? std::optional(form->real()) : std::nullopt;
+std::optional<Criticality> flip_criticality(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                            SecondVariation& variation) {
+    auto cubic = cubic_coefficient(equations, at, -1, variation);
+    if (cubic)
+        *cubic = {cubic->form / 6.0, cubic->error / 6, cubic->is_simple};
+    return cubic;
 }
 
-std::optional<Complex> torus_form(const OrbitEquations& equations, const OrbitEvaluation& at,
-                                  SecondVariation& variation) {
+std::optional<Criticality> torus_criticality(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                             SecondVariation& variation) {
+    const auto multiplier = pair_on_circle(multipliers_of(equations, at));
+    auto cubic = multiplier ? cubic_coefficient(equations, at, *multiplier, variation) : std::nullopt;
+    if (cubic)
+        *cubic = {std::conj(*multiplier) * cubic->form / 2.0, cubic->error / 2, cubic->is_simple};
+    return cubic;
+}
+
+VectorXd units_of_columns(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    return at.scales.head(index(equations.layout().start_of(at.pieces.size())));
+}
+
+VectorXd units_of_rows(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    const auto n = index(equations.layout().states());
+    VectorXd result(index(at.pieces.size()) * (n + 1));
+    for (std::size_t k = 0; k < at.pieces.size(); ++k)
+        result.segment(index(k) * (n + 1), n + 1) << at.pieces[k].condition_unit, at.scales.head(n);
+    return result;
+}
+
+std::vector<Complex> multipliers_of(const OrbitEquations& equations, const OrbitEvaluation& at) {
     const VectorXd ones = VectorXd::Ones(index(equations.layout().start_of(at.pieces.size())));
-    const auto multiplier = pair_on_circle(CyclicMatrix(at.system, 1, ones, ones).multipliers());
-    if (!multiplier)
-        return std::nullopt;
-    const auto cubic = cubic_coefficient(equations, at, *multiplier, variation);
-    return cubic ? std::optional(std::conj(*multiplier) * cubic->value / 2.0) : std::nullopt;
-}
-
-std::optional<Criticality> flip_criticality(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    SecondVariation variation(equations);
-    const auto cubic = cubic_coefficient(equations, at, -1, variation);
-    return cubic ? std::optional(Criticality{cubic->value.real() / 6, cubic->error / 6, cubic->is_simple})
-                 : std::nullopt;
-}
-
-std::optional<Criticality> torus_criticality(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    SecondVariation variation(equations);
-    const VectorXd ones = VectorXd::Ones(index(equations.layout().start_of(at.pieces.size())));
-    const auto multiplier = pair_on_circle(CyclicMatrix(at.system, 1, ones, ones).multipliers());
-    const auto cubic = multiplier ? cubic_coefficient(equations, at, *multiplier, variation) : std::nullopt;
-    return cubic ? std::optional(Criticality{(std::conj(*multiplier) * cubic->value / 2.0).real(), cubic->error / 2,
-                                             cubic->is_simple})
-                 : std::nullopt;
+    return CyclicMatrix(at.system, 1, ones, ones).multipliers();
 }
 
 std::optional<Complex> pair_on_circle(const std::vector<Complex>& multipliers) {

@@ -18,33 +18,27 @@ namespace graze {
 // factor mu; F_2 and F_3 are the second and third derivatives of the equations with respect to starts and durations.
 // Second derivatives are exact, third derivatives are differences of these.
 
+/// The coefficient of a flip or of a torus point with its error due to round-off.
+struct Criticality {
+    std::complex<double> form;
+    double error = 0;
+    bool is_simple = true; ///< false: the multiplier is multiple up to round-off, so that the coefficient is undefined
+    double value() const { return form.real(); }
+    /// True when the sign is significant; for linear and conservative models the coefficient is zero up to round-off.
+    bool is_decided() const { return std::abs(value()) > error; }
+};
 /// Returns the coefficient c of the flip, w -> -w + c w^3: for c > 0 (supercritical) the bifurcating orbit of twice the
 /// period is stable if the original one has no other unstable direction. For a half orbit, the bifurcating orbit is
 /// asymmetric.
-/// @param at evaluation at an orbit with a multiplier -1. @return empty where it cannot be computed
-std::optional<double> flip_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at);
-/// The same with compiled second derivatives of these equations; compiling takes much longer than evaluating.
-std::optional<double> flip_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at,
-                                       SecondVariation& variation);
-
-/// Returns the coefficient d of the torus, |w| -> |w| (1 + d |w|^2): for d < 0 (supercritical) the torus is stable,
-/// likewise.
+/// @param at evaluation at an orbit with a multiplier -1. @param variation compiled second derivatives of these
+/// equations; compiling takes much longer than evaluating. @return empty where it cannot be computed
+std::optional<Criticality> flip_criticality(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                            SecondVariation& variation);
+/// Returns the coefficient D of the torus, w -> mu w (1 + D |w|^2). For a negative real part (supercritical) the torus
+/// is stable, likewise; the imaginary part is the change of the rotation angle.
 /// @param at evaluation at an orbit with two multipliers on the unit circle
-std::optional<double> torus_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at);
-/// Returns D of w -> mu w (1 + D |w|^2), with compiled second derivatives: its real part is d, its imaginary part the
-/// change of the rotation angle.
-std::optional<std::complex<double>> torus_form(const OrbitEquations& equations, const OrbitEvaluation& at,
-                                               SecondVariation& variation);
-
-/// The coefficient of a flip or of a torus point with its error due to round-off.
-struct Criticality {
-    double value = 0, error = 0;
-    bool is_simple = true; ///< false: the multiplier is multiple up to round-off, so that the coefficient is undefined
-    /// True when the sign is significant; for linear and conservative models the coefficient is zero up to round-off.
-    bool is_decided() const { return std::abs(value) > error; }
-};
-std::optional<Criticality> flip_criticality(const OrbitEquations& equations, const OrbitEvaluation& at);
-std::optional<Criticality> torus_criticality(const OrbitEquations& equations, const OrbitEvaluation& at);
+std::optional<Criticality> torus_criticality(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                             SecondVariation& variation);
 
 /// Normal form of a fold, w -> w + b (p - p_0) + a w^2: two orbits exist on one side of the parameter, at w^2 = -b (p -
 /// p_0)/a to first order; one of them is stable if there is no other unstable direction.
@@ -64,6 +58,13 @@ std::optional<FoldForm> fold_form(const OrbitEquations& equations, const OrbitEv
 /// Returns the coefficient c of the cusp, w -> w + c w^3: for c < 0 the outer two of the three orbits are stable.
 /// @param at evaluation at an orbit with a multiplier 1 and fold coefficient zero
 std::optional<double> cusp_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at);
+
+/// Return the units of starts and durations, and those of the equations: for each piece that of its end condition, then
+/// those of the states.
+Eigen::VectorXd units_of_columns(const OrbitEquations& equations, const OrbitEvaluation& at);
+Eigen::VectorXd units_of_rows(const OrbitEquations& equations, const OrbitEvaluation& at);
+/// Returns the multipliers of the equations, without a division by contact speeds.
+std::vector<std::complex<double>> multipliers_of(const OrbitEquations& equations, const OrbitEvaluation& at);
 
 /// Returns the multiplier in the upper half plane nearest to the unit circle; empty if there is none.
 std::optional<std::complex<double>> pair_on_circle(const std::vector<std::complex<double>>& multipliers);

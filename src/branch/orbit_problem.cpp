@@ -30,13 +30,11 @@ OrbitProblem::OrbitProblem(std::unique_ptr<OrbitEquations> equations)
     const double of_starts = std::min(1.0, typical_starts / (states * segments)),
                  of_durations = std::min(1.0, typical_durations / segments);
     for (std::size_t k = 0; k < layout.pieces(); ++k) {
-        const std::size_t segment = layout.segment_of(k), next = layout.duration_of(k);
+        const std::size_t segment = layout.segment_of(k);
         const auto count = static_cast<double>(1 + layout.last_piece(segment) - layout.first_piece(segment));
-        std::fill(weights_.begin() + static_cast<std::ptrdiff_t>(layout.start_of(k)),
-                  weights_.begin() + static_cast<std::ptrdiff_t>(next), of_starts / count);
-        weights_[next] = of_durations;
-        const auto inner = weights_.begin() + static_cast<std::ptrdiff_t>(layout.inner_of(k));
-        std::fill(inner, inner + static_cast<std::ptrdiff_t>(layout.inner()), 0.0);
+        entries_of(weights_).segment(index(layout.start_of(k)), index(layout.states())).setConstant(of_starts / count);
+        weights_[layout.duration_of(k)] = of_durations;
+        entries_of(weights_).segment(index(layout.inner_of(k)), index(layout.inner())).setZero();
     }
 }
 
@@ -47,21 +45,12 @@ OrbitProblem::OrbitProblem(const Simulation& simulation, const Orbit& orbit, con
     : OrbitProblem(std::make_unique<Shooting>(simulation, orbit, both(settings.parameter, settings.free),
                                               std::vector{range_of(settings)})) {}
 
-std::vector<double> OrbitProblem::row_of(std::span<const double> direction) const {
-    std::vector<double> row(direction.begin(), direction.end());
-    for (std::size_t i = 0; i < row.size(); ++i)
-        row[i] *= weights_[i] / (scales()[i] * scales()[i]);
-    return row;
-}
-
-std::vector<double> OrbitProblem::unknowns_of(const Orbit& orbit) {
-    const Eigen::VectorXd unknowns = equations_->unknowns_of(orbit);
-    return {unknowns.begin(), unknowns.end()};
-}
-
-std::vector<double> OrbitProblem::unknowns_of(const OrbitDirection& direction) const {
-    const Eigen::VectorXd unknowns = equations_->unknowns_of(direction, at_);
-    return {unknowns.begin(), unknowns.end()};
+std::optional<OrbitDirection> OrbitProblem::tangent_at(const Orbit& orbit, double rate) {
+    std::vector<double> row(unknowns(), 0.0), tangent(unknowns());
+    row[parameter_place()] = 1;
+    if (!evaluate(unknowns_of(orbit)) || !solve(row, rate, true, tangent, nullptr))
+        return std::nullopt;
+    return direction_of(tangent);
 }
 
 bool OrbitProblem::evaluate(std::span<const double> u) {
@@ -116,7 +105,7 @@ bool OrbitProblem::solve(std::span<const double> row, double right, bool homogen
         *determinant = closed.system.determinant();
     if (!equations_->solve(at_, closed, values, homogeneous, result))
         return false;
-    Eigen::Map<Eigen::VectorXd>(step.data(), result.size()) = result;
+    entries_of(step) = result;
     return true;
 }
 
@@ -125,7 +114,7 @@ bool OrbitProblem::chord(std::span<const double> u, std::span<const double> row,
     if (at_.unknowns.size() == 0 ||
         !equations_->chord(at_, closed_by(row), vector_of(u), Eigen::VectorXd::Zero(1), result))
         return false;
-    Eigen::Map<Eigen::VectorXd>(step.data(), result.size()) = result;
+    entries_of(step) = result;
     return true;
 }
 

@@ -4,12 +4,14 @@
 #include "flow/cyclic.hpp"
 #include "graze/branch/continuation.hpp"
 #include "graze/branch/orbit_branch.hpp"
+#include "orbit/eigen_index.hpp"
 #include "orbit/orbit_equations.hpp"
 
 #include <Eigen/Core>
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,7 +36,7 @@ public:
     OrbitEquations& equations() { return *equations_; }
     const OrbitEquations& equations() const { return *equations_; }
     std::size_t parameter_place() const { return equations_->layout().parameter(0); }
-    std::vector<double> unknowns_of(const Orbit& orbit);
+    std::vector<double> unknowns_of(const Orbit& orbit) { return numbers_of(equations_->unknowns_of(orbit)); }
     Orbit orbit_of(std::span<const double> u) const { return equations_->orbit_of(vector_of(u)); }
 
     /// The last evaluation.
@@ -43,8 +45,13 @@ public:
     virtual std::string problem() const { return at_.problem; }
     /// Converts a direction of the orbit to one of the unknowns, at the last evaluation. @throws InputError when the
     /// direction does not fit the orbit
-    std::vector<double> unknowns_of(const OrbitDirection& direction) const;
+    std::vector<double> unknowns_of(const OrbitDirection& direction) const {
+        return numbers_of(equations_->unknowns_of(direction, at_));
+    }
     OrbitDirection direction_of(std::span<const double> u) const { return equations_->direction_of(vector_of(u)); }
+    /// Returns the tangent of the branch through an orbit along which the parameter changes at this rate; empty where
+    /// there is none, as at a fold.
+    std::optional<OrbitDirection> tangent_at(const Orbit& orbit, double rate);
 
     std::size_t unknowns() const override { return equations_->unknowns(); }
     std::span<const double> scales() const override {
@@ -53,8 +60,6 @@ public:
     /// All pieces of a segment together have the weight of one, and inner unknowns have none, so that lengths do not
     /// depend on the discretisation. Many states or segments together have the weight of a few.
     std::span<const double> weights() const override { return weights_; }
-    /// Returns the row whose product with a vector is the scaled inner product with a direction.
-    std::vector<double> row_of(std::span<const double> direction) const;
     /// Does nothing if u is the point of the last evaluation, as after Newton's method.
     bool evaluate(std::span<const double> u) override;
     bool solve(std::span<const double> row, double right, bool homogeneous, std::span<double> step,
@@ -79,10 +84,6 @@ public:
                 double& one = difference[equations_->layout().start_of(k) + i];
                 one = without_turns(one, periods[i]);
             }
-    }
-
-    static Eigen::Map<const Eigen::VectorXd> vector_of(std::span<const double> values) {
-        return {values.data(), static_cast<Eigen::Index>(values.size())};
     }
 
 private:

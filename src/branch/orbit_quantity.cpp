@@ -36,6 +36,11 @@ Expression composed(Model& model, const Expression& expression, const std::vecto
     return substitute(expression, replacements);
 }
 
+std::vector<double> start_of_piece(const OrbitEquations& equations, const OrbitEvaluation& at, std::size_t piece) {
+    const double* start = at.unknowns.data() + equations.layout().start_of(piece);
+    return {start, start + equations.layout().states()};
+}
+
 const Transition& transition_of(const OrbitEquations& equations, std::size_t segment) {
     require_index(segment, equations.signature().size(), "segment");
     if (equations.signature()[segment].end != SegmentEnd::event)
@@ -47,53 +52,35 @@ const Transition& transition_of(const OrbitEquations& equations, std::size_t seg
 
 OrbitQuantity OrbitQuantity::of_monitor(const OrbitEquations& equations, const Monitor& monitor,
                                         std::optional<std::size_t> segment, double value) {
-    const auto quantity = [&] {
-        switch (monitor.kind) {
-        case Monitor::Kind::value:
-            return Quantity::end;
-        case Monitor::Kind::start:
-            return Quantity::start;
-        case Monitor::Kind::duration:
-            return Quantity::duration;
-        case Monitor::Kind::maximum:
-            return Quantity::maximum;
-        case Monitor::Kind::minimum:
-            return Quantity::minimum;
-        case Monitor::Kind::mean:
-            return Quantity::mean;
-        case Monitor::Kind::norm:
-            return Quantity::norm;
-        case Monitor::Kind::multiplier:
-            break;
-        }
+    if (monitor.kind == Monitor::Kind::multiplier)
         throw InputError(fmt::format("monitor '{}' is a multiplier, which cannot be held", monitor.name),
                          "report values of it, or give bounds at which the branch ends");
-    }();
-    return {equations, {quantity, monitor.expression, segment, value, 0}};
+    return {equations, {monitor.kind, monitor.expression, segment, value, {}}};
 }
 
 OrbitQuantity OrbitQuantity::of_speed(const OrbitEquations& equations, std::size_t segment, double speed) {
     const Transition& transition = transition_of(equations, segment);
-    return {equations,
-            {Quantity::end, rate_of(equations.system(), transition.mode, transition.event), segment, -speed, 0}};
+    return {
+        equations,
+        {Monitor::Kind::value, rate_of(equations.system(), transition.mode, transition.event), segment, -speed, {}}};
 }
 
 OrbitQuantity OrbitQuantity::of_touch(const OrbitEquations& equations, std::size_t segment, std::size_t event,
                                       double share) {
     require_index(segment, equations.signature().size(), "segment");
     require_index(event, equations.model().events.size(), "event");
-    return {equations, {Quantity::touch, equations.model().events[event].function, segment, 0, share}};
+    return {equations, {Monitor::Kind::minimum, equations.model().events[event].function, segment, 0, share}};
 }
 
 OrbitQuantity OrbitQuantity::of_two_events(const OrbitEquations& equations, std::size_t segment, std::size_t event) {
     require_index(segment, equations.signature().size(), "segment");
     require_index(event, equations.model().events.size(), "event");
-    return {equations, {Quantity::end, equations.model().events[event].function, segment, 0, 0}};
+    return {equations, {Monitor::Kind::value, equations.model().events[event].function, segment, 0, {}}};
 }
 
 OrbitQuantity OrbitQuantity::of_vanishing(const OrbitEquations& equations, std::size_t segment) {
     require_index(segment, equations.signature().size(), "segment");
-    return {equations, {Quantity::duration, {}, segment, 0, 0}};
+    return {equations, {Monitor::Kind::duration, {}, segment, 0, {}}};
 }
 
 std::optional<OrbitQuantity> OrbitQuantity::of_guard(const OrbitEquations& equations, const OrbitEvaluation& at,
@@ -118,16 +105,16 @@ std::optional<OrbitQuantity> OrbitQuantity::of_guard(const OrbitEquations& equat
         }
     if (!nearest)
         return std::nullopt;
-    return OrbitQuantity(equations, {Quantity::end, *nearest, segment, 0, 0});
+    return OrbitQuantity(equations, {Monitor::Kind::value, *nearest, segment, 0, {}});
 }
 
 /// Returns the expression of the quantity and, for half orbits, its composition with the symmetry.
 std::vector<Expression> OrbitQuantity::expressions_of(const OrbitEquations& equations, const Description& description) {
-    if (description.quantity == Quantity::duration)
+    if (description.kind == Monitor::Kind::duration)
         return {};
     Model model = equations.model();
     const Expression& given = description.expression;
-    const Expression own = model.expand(description.quantity == Quantity::norm ? given * given : given);
+    const Expression own = model.expand(description.kind == Monitor::Kind::norm ? given * given : given);
     std::vector<Expression> result{own};
     if (!description.segment && equations.symmetry())
         result.push_back(composed(model, own, model.symmetries[*equations.symmetry()].map));
@@ -139,8 +126,8 @@ OrbitQuantity::OrbitQuantity(const OrbitEquations& equations, const Description&
 
 OrbitQuantity::OrbitQuantity(const OrbitEquations& equations, const Description& description,
                              const std::vector<Expression>& expressions)
-    : quantity_(description.quantity), segment_(description.segment), target_(description.target),
-      share_(description.share), simulation_(equations.system(), {}, expressions, equations.simulation().options()),
+    : kind_(description.kind), segment_(description.segment), target_(description.target), share_(description.share),
+      simulation_(equations.system(), {}, expressions, equations.simulation().options()),
       flow_(flow_of(simulation_, equations.free())), roots_(simulation_.order()) {
     for (const Expression& expression : expressions)
         watched_.push_back({simulation_.system().with_gradient(expression), watched_.size()});
@@ -149,33 +136,17 @@ OrbitQuantity::OrbitQuantity(const OrbitEquations& equations, const Description&
 bool OrbitQuantity::evaluate(const OrbitEquations& equations, const OrbitEvaluation& at) {
     gradient_ = Eigen::RowVectorXd::Zero(at.unknowns.size());
     flow_.set_parameters(at.parameters);
-    bool defined = false;
-    switch (quantity_) {
-    case Quantity::end:
-        defined = at_end(equations, at);
-        break;
-    case Quantity::start:
-        defined = at_start(equations, at);
-        break;
-    case Quantity::duration:
-        defined = duration(equations, at);
-        break;
-    case Quantity::maximum:
-    case Quantity::minimum:
-    case Quantity::touch:
-        defined = extremum(equations, at);
-        break;
-    case Quantity::mean:
-    case Quantity::norm:
-        defined = mean(equations, at);
-        break;
-    }
+    const bool defined = kind_ == Monitor::Kind::value                                        ? at_end(equations, at)
+                         : kind_ == Monitor::Kind::start                                      ? at_start(equations, at)
+                         : kind_ == Monitor::Kind::duration                                   ? duration(equations, at)
+                         : kind_ == Monitor::Kind::maximum || kind_ == Monitor::Kind::minimum ? extremum(equations, at)
+                                                                                              : mean(equations, at);
     value_ -= target_;
     return defined && std::isfinite(value_) && gradient_.allFinite();
 }
 
 void OrbitQuantity::renew(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    if (quantity_ != Quantity::touch)
+    if (!share_)
         return;
     flow_.set_parameters(at.parameters);
     if (const auto place = find_extremum(equations, at))
@@ -209,10 +180,10 @@ bool OrbitQuantity::at_end(const OrbitEquations& equations, const OrbitEvaluatio
 
 bool OrbitQuantity::at_start(const OrbitEquations& equations, const OrbitEvaluation& at) {
     const auto n = index(equations.layout().states());
-    const Eigen::Index place = index(equations.layout().start_of(equations.layout().first_piece(segment_.value_or(0))));
-    const std::vector<double> state(at.unknowns.data() + place, at.unknowns.data() + place + n);
-    const Eigen::VectorXd by_all = gradient_at(equations, at, watched_[0], state, value_);
-    gradient_.segment(place, n) = by_all.head(n).transpose();
+    const std::size_t piece = equations.layout().first_piece(segment_.value_or(0));
+    const Eigen::VectorXd by_all =
+        gradient_at(equations, at, watched_[0], start_of_piece(equations, at, piece), value_);
+    gradient_.segment(index(equations.layout().start_of(piece)), n) = by_all.head(n).transpose();
     gradient_.tail(by_all.size() - n) = by_all.tail(by_all.size() - n).transpose();
     return true;
 }
@@ -230,7 +201,7 @@ bool OrbitQuantity::duration(const OrbitEquations& equations, const OrbitEvaluat
 /// Returns the distance in time from the previous touch, as a share of the period, measured cyclically for an orbit
 /// without contacts.
 double OrbitQuantity::distance_from_touch(const OrbitEquations& equations, double share) const {
-    const double off = std::abs(share - share_);
+    const double off = std::abs(share - *share_);
     const bool is_cyclic =
         equations.signature().size() == 1 && equations.signature()[0].end != SegmentEnd::event && !equations.symmetry();
     return is_cyclic ? std::min(off, std::abs(1 - off)) : off;
@@ -238,12 +209,11 @@ double OrbitQuantity::distance_from_touch(const OrbitEquations& equations, doubl
 
 std::optional<OrbitQuantity::Place> OrbitQuantity::find_extremum(const OrbitEquations& equations,
                                                                  const OrbitEvaluation& at) {
-    const bool touch = quantity_ == Quantity::touch;
-    const double sign = quantity_ == Quantity::maximum ? 1 : -1;
+    const bool touch = share_.has_value();
+    const double sign = kind_ == Monitor::Kind::maximum ? 1 : -1;
     double whole = 0, before = 0; // durations of all pieces, and of the previous ones
     for (const std::size_t k : pieces(equations.layout()))
         whole += at.unknowns[index(equations.layout().duration_of(k))];
-    const std::size_t n = equations.layout().states();
     std::optional<Place> best;
     std::vector<double> coefficients, derivative;
     std::vector<Root> found;
@@ -254,8 +224,7 @@ std::optional<OrbitQuantity::Place> OrbitQuantity::find_extremum(const OrbitEqua
             if (std::isfinite(preference) && (!best || preference > best->preference))
                 best = Place{watched, k, time, at_end, value, preference, share};
         };
-        const double* start = at.unknowns.data() + equations.layout().start_of(k);
-        std::vector<double> state(start, start + n);
+        std::vector<double> state = start_of_piece(equations, at, k);
         const std::size_t mode = equations.mode_of(k);
         const std::size_t events = simulation_.system().mode(mode).watched.size();
         const double duration = at.unknowns[index(equations.layout().duration_of(k))];
@@ -297,8 +266,7 @@ bool OrbitQuantity::extremum(const OrbitEquations& equations, const OrbitEvaluat
         gradient_ = equations.row_at_end(at, place->piece, by_all);
         return true;
     }
-    const double* start = at.unknowns.data() + equations.layout().start_of(place->piece);
-    std::vector<double> state(start, start + n);
+    std::vector<double> state = start_of_piece(equations, at, place->piece);
     Eigen::MatrixXd flow;
     if (run(flow_, equations.mode_of(place->piece), state, place->time, flow) != ModeFlow::Ending::done)
         return false;
@@ -316,14 +284,13 @@ bool OrbitQuantity::mean(const OrbitEquations& equations, const OrbitEvaluation&
     double integral = 0, time = 0;
     const double share = 1.0 / static_cast<double>(watched_.size());
     for (const std::size_t k : pieces(equations.layout())) {
-        const double* start = at.unknowns.data() + equations.layout().start_of(k);
         const std::size_t mode = equations.mode_of(k);
         const double duration = at.unknowns[index(equations.layout().duration_of(k))];
-        std::vector<double> state(start, start + n);
+        std::vector<double> state = start_of_piece(equations, at, k);
         std::vector<std::pair<double, double>> steps;
         flow_.run(mode, state, duration,
                   [&](const Jet&, double begin, double length) { steps.emplace_back(begin, length); });
-        state.assign(start, start + n);
+        state = start_of_piece(equations, at, k);
         double now = 0;
         Eigen::MatrixXd flow = Eigen::MatrixXd::Identity(n, n + q), part;
         for (const auto& [begin, length] : steps)
@@ -357,7 +324,7 @@ bool OrbitQuantity::mean(const OrbitEquations& equations, const OrbitEvaluation&
     for (const std::size_t k : pieces(equations.layout()))
         gradient_[index(equations.layout().duration_of(k))] -= value_;
     gradient_ /= time;
-    if (quantity_ == Quantity::norm) {
+    if (kind_ == Monitor::Kind::norm) {
         if (!(value_ > 0))
             return false;
         value_ = std::sqrt(value_);

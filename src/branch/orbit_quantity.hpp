@@ -43,12 +43,12 @@ public:
     void renew(const OrbitEquations& equations, const OrbitEvaluation& at) override;
 
 private:
-    enum class Quantity { end, start, duration, maximum, minimum, touch, mean, norm };
     struct Description {
-        Quantity quantity = Quantity::duration;
+        Monitor::Kind kind = Monitor::Kind::duration;
         Expression expression{};
         std::optional<std::size_t> segment; ///< empty: the whole orbit
-        double target = 0, share = 0;
+        double target = 0;
+        std::optional<double> share; ///< for a touch: about the share of the segment at which its minimum lies
     };
     OrbitQuantity(const OrbitEquations& equations, const Description& description);
     OrbitQuantity(const OrbitEquations& equations, const Description& description,
@@ -79,9 +79,10 @@ private:
     Eigen::VectorXd gradient_at(const OrbitEquations& equations, const OrbitEvaluation& at, const Watched& watched,
                                 std::vector<double> state, double& value) const;
 
-    Quantity quantity_;
+    Monitor::Kind kind_;
     std::optional<std::size_t> segment_;
-    double target_, share_;
+    double target_;
+    std::optional<double> share_;
     Simulation simulation_;
     ModeFlow flow_;
     RootFinder roots_;

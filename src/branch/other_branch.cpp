@@ -1,8 +1,11 @@
 #include "branch/other_branch.hpp"
 
-#include "branch/orbit_problem.hpp"
+#include "branch/point_rules.hpp"
 #include "graze/base/input_error.hpp"
 #include "orbit/newton.hpp"
+
+#include <cmath>
+#include <iterator>
 
 namespace graze {
 
@@ -10,6 +13,23 @@ namespace {
 
 /// Scaled distance of the first point on another branch.
 constexpr double first_distance = 1e-2;
+/// Distances that are tried, in units of the given one.
+constexpr double factors[] = {1, 0.1, 4, 0.01};
+/// Half orders of magnitude that are tried for states that leave zero: 15 decades below and above the other states.
+constexpr int half_decades = 30;
+
+/// Returns 1 for the unknowns whose scales are their own size, 0 for others.
+Eigen::VectorXd sized_unknowns(const OrbitEquations& equations) {
+    const OrbitLayout& layout = equations.layout();
+    Eigen::VectorXd result = Eigen::VectorXd::Ones(index(layout.unknowns()));
+    for (std::size_t i = 0; i < layout.states(); ++i) {
+        for (std::size_t k = 0; k < layout.pieces(); ++k)
+            result[index(layout.start_of(k) + i)] = equations.has_size(i) ? 1 : 0;
+        for (std::size_t j = i; j < layout.pieces() * layout.inner(); j += layout.states())
+            result[index(layout.inner_of(0) + j)] = equations.has_size(i) ? 1 : 0;
+    }
+    return result;
+}
 
 } // namespace
 
@@ -31,11 +51,11 @@ std::vector<BranchStart> along_null_vector(const System& system, Orbit orbit, co
     };
     if (!problem.evaluate(problem.unknowns_of(orbit)))
         fail();
-    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(static_cast<Eigen::Index>(problem.unknowns()));
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(index(problem.unknowns()));
     if (!along.is_empty())
-        row = OrbitProblem::vector_of(problem.row_of(problem.unknowns_of(along))).transpose();
+        row = vector_of(problem.row_of(problem.unknowns_of(along))).transpose();
     else
-        row[static_cast<Eigen::Index>(problem.parameter_place())] = 1;
+        row[index(problem.parameter_place())] = 1;
     Eigen::VectorXd vector;
     if (!problem.equations().null_vector(problem.evaluation(), row, vector))
         fail();
@@ -44,6 +64,81 @@ std::vector<BranchStart> along_null_vector(const System& system, Orbit orbit, co
     if (second)
         result.push_back({orbit, direction, -first_distance, how + ", the other way"});
     return result;
+}
+
+OtherBranchSearch::OtherBranchSearch(BranchState& state, const Orbit& orbit, std::vector<double> direction,
+                                     double distance)
+    : state_(state), u_(state.problem().unknowns_of(orbit)), direction_(std::move(direction)), distance_(distance),
+      length_(state.problem().length_of(direction_)), sized_(sized_unknowns(state.problem().equations())),
+      was_simpler_(is_degenerate(state, orbit, same_orbit)) {
+    const auto whole = vector_of(direction_).cwiseQuotient(vector_of(state.problem().scales())).norm();
+    leaves_zero_ = size_of(vector_of(direction_)) < 0.5 * whole;
+}
+
+/// Returns the scaled length of a change of the unknowns that have sizes.
+double OtherBranchSearch::size_of(const Eigen::VectorXd& change) const {
+    return change.cwiseQuotient(vector_of(state_.problem().scales())).cwiseProduct(sized_).norm();
+}
+
+bool OtherBranchSearch::next() {
+    while (!leaves_zero_ && tried_ < static_cast<int>(std::size(factors)))
+        if (reaches_other(direction_, factors[tried_++] * distance_))
+            return true;
+    OrbitProblem& problem = state_.problem();
+    while (leaves_zero_ && tried_ <= 2 * half_decades) {
+        const double factor = std::pow(10, 0.5 * (tried_++ - half_decades)) * distance_ / length_;
+        const Eigen::VectorXd move = factor * vector_of(direction_);
+        problem.equations().set_scales(vector_of(u_) + move);
+        const std::vector<double> there = numbers_of(move);
+        if (reaches_other(there, problem.length_of(there)) && has_suitable_distance())
+            return true;
+    }
+    if (leaves_zero_)
+        problem.equations().set_scales(vector_of(u_));
+    return false;
+}
+
+std::string OtherBranchSearch::why() const {
+    return leaves_zero_ ? "no orbit on another branch was found at any distance from the original one"
+           : came_back_ ? "Newton's method returns to the original branch"
+                        : "";
+}
+
+bool OtherBranchSearch::reaches_other(const std::vector<double>& direction, double distance) {
+    if (!state_.continuation().start_along(u_, direction, distance))
+        return false;
+    // From a flip or symmetry breaking the new branch leaves the simpler orbits, or it returns to them.
+    const double resolved = 0.01 * std::abs(distance);
+    const auto displaced = [&] {
+        const double length = state_.problem().length_of(direction);
+        return state_.problem().equations().orbit_of(vector_of(u_) + distance * vector_of(direction) / length);
+    };
+    const bool from_simpler = was_simpler_ && !is_degenerate(state_, displaced(), resolved);
+    const bool is_old =
+        from_simpler ? is_degenerate(state_, state_.orbit(), resolved) : bends_back(direction, distance);
+    came_back_ = came_back_ || is_old;
+    return !is_old;
+}
+
+/// True when the point found lies on the original branch, which bends towards the direction of the other one: its
+/// distance then scales with the square root of the step; on a crossing branch it is proportional to the step.
+bool OtherBranchSearch::bends_back(const std::vector<double>& direction, double distance) {
+    constexpr double far = 5, nearer = 0.25, between_root_and_proportion = 0.36;
+    const double off = state_.distance_from(u_);
+    if (off < far * std::abs(distance))
+        return false;
+    Continuation& continuation = state_.continuation();
+    const bool bends = continuation.start_along(u_, direction, nearer * distance) &&
+                       state_.distance_from(u_) > between_root_and_proportion * off;
+    return bends || !continuation.start_along(u_, direction, distance);
+}
+
+/// True when an orbit on another branch has a suitable distance: the other states and the parameter must have changed
+/// measurably, but not too much. The states that leave zero cannot tell.
+bool OtherBranchSearch::has_suitable_distance() const {
+    constexpr double least = 1e-2, most = 10; // in units of the scales
+    const double bent = size_of(vector_of(u_) - vector_of(state_.continuation().point().u));
+    return bent > least && bent < most;
 }
 
 } // namespace graze

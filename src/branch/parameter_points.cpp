@@ -46,10 +46,6 @@ bool confirm_parameter_extremum(BranchState& state, SpecialPoint& special, std::
     return special.located && greatest > constant;
 }
 
-} // namespace
-
-namespace {
-
 /// True when a parameter has an extremum at a point of the last step.
 bool has_extremum(BranchState& state, const SpecialPoint& special, std::size_t parameter) {
     constexpr double turning = 1e-5;  // ratio of the tangent component at the extremum to that at the ends of the step

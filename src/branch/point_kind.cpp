@@ -23,217 +23,117 @@ int always(const SpecialPoint&) {
     return Rank;
 }
 
+/// The properties of PointKind that an entry of the table has.
+constexpr unsigned changes = 1, limits = 2, has_bifurcating_branch = 4, may_stop = 8, may_be_kept = 16;
+
+constexpr PointKind kind(PointType type, std::string_view short_name, std::string_view name, unsigned properties = 0,
+                         int mark = 0) {
+    const auto has = [&](unsigned property) { return (properties & property) != 0; };
+    return {type,          short_name,       name, has(changes), has(limits), has(has_bifurcating_branch),
+            has(may_stop), has(may_be_kept), mark};
+}
+
 /// The table of all kinds, in the order of PointType; functions that a kind does not have stay null.
 constexpr std::array table{
-    PointRule{.kind = {.type = PointType::fold,
-                       .short_name = "SN",
-                       .name = "fold",
-                       .changes = true,
-                       .may_stop = true,
-                       .may_be_kept = true,
-                       .mark = 7},
+    PointRule{.kind = kind(PointType::fold, "SN", "fold", changes | may_stop | may_be_kept, 7),
               .test = test_fold,
               .confirm = confirm_fold,
               .condition = condition_of_fold},
-    PointRule{.kind = {.type = PointType::flip,
-                       .short_name = "PD",
-                       .name = "flip",
-                       .changes = true,
-                       .leads_on = true,
-                       .may_stop = true,
-                       .may_be_kept = true,
-                       .mark = 9},
+    PointRule{.kind = kind(PointType::flip, "PD", "flip", changes | has_bifurcating_branch | may_stop | may_be_kept, 9),
               .test = test_flip,
               .confirm = confirm_flip,
               .condition = condition_of_flip,
               .leave = leave_flip},
-    PointRule{.kind = {.type = PointType::torus,
-                       .short_name = "NS",
-                       .name = "torus",
-                       .changes = true,
-                       .may_stop = true,
-                       .may_be_kept = true,
-                       .mark = 13},
+    PointRule{.kind = kind(PointType::torus, "NS", "torus", changes | may_stop | may_be_kept, 13),
               .test = test_torus,
               .confirm = confirm_torus,
               .condition = condition_of_torus},
-    PointRule{.kind = {.type = PointType::branch_point,
-                       .short_name = "BP",
-                       .name = "branch point",
-                       .changes = true,
-                       .leads_on = true,
-                       .may_stop = true,
-                       .may_be_kept = true,
-                       .mark = 5},
+    PointRule{.kind = kind(PointType::branch_point, "BP", "branch point",
+                           changes | has_bifurcating_branch | may_stop | may_be_kept, 5),
               .test = test_branch_point,
               .confirm = confirm_branch_point,
               .leave = leave_branch_point},
-    PointRule{.kind = {.type = PointType::asymmetry,
-                       .short_name = "SB",
-                       .name = "loss of symmetry",
-                       .changes = true,
-                       .leads_on = true,
-                       .may_stop = true,
-                       .may_be_kept = true,
-                       .mark = 5},
+    PointRule{.kind = kind(PointType::asymmetry, "SB", "loss of symmetry",
+                           changes | has_bifurcating_branch | may_stop | may_be_kept, 5),
               .test = test_asymmetry,
               .confirm = confirm_flip,
               .condition = condition_of_flip,
               .leave = leave_asymmetry},
-    PointRule{.kind = {.type = PointType::grazing,
-                       .short_name = "GR",
-                       .name = "grazing",
-                       .changes = true,
-                       .limits = true,
-                       .leads_on = true,
-                       .may_stop = true,
-                       .may_be_kept = true,
-                       .mark = 12},
+    PointRule{.kind = kind(PointType::grazing, "GR", "grazing",
+                           changes | limits | has_bifurcating_branch | may_stop | may_be_kept, 12),
               .test = test_grazing,
               .confirm = confirm_grazing,
               .rank = rank_of_grazing,
               .condition = condition_of_grazing,
               .leave = leave_grazing},
-    PointRule{.kind = {.type = PointType::vanishing,
-                       .short_name = "DZ",
-                       .name = "vanishing segment",
-                       .changes = true,
-                       .limits = true,
-                       .may_stop = true,
-                       .may_be_kept = true,
-                       .mark = 8},
+    PointRule{.kind =
+                  kind(PointType::vanishing, "DZ", "vanishing segment", changes | limits | may_stop | may_be_kept, 8),
               .test = test_vanishing,
               .confirm = confirm_vanishing,
               .rank = always<3>,
               .condition = condition_of_vanishing,
               .leave = leave_order},
-    PointRule{.kind = {.type = PointType::two_events,
-                       .short_name = "EE",
-                       .name = "two events at once",
-                       .changes = true,
-                       .limits = true,
-                       .may_stop = true,
-                       .may_be_kept = true,
-                       .mark = 4},
+    PointRule{.kind =
+                  kind(PointType::two_events, "EE", "two events at once", changes | limits | may_stop | may_be_kept, 4),
               .test = test_two_events,
               .confirm = confirm_two_events,
               .rank = always<4>,
               .condition = condition_of_two_events,
               .leave = leave_order},
-    PointRule{.kind = {.type = PointType::guard,
-                       .short_name = "GU",
-                       .name = "guard",
-                       .changes = true,
-                       .limits = true,
-                       .may_stop = true,
-                       .may_be_kept = true,
-                       .mark = 10},
+    PointRule{.kind = kind(PointType::guard, "GU", "guard", changes | limits | may_stop | may_be_kept, 10),
               .test = test_guard,
               .confirm = confirm_guard,
               .rank = always<5>,
               .condition = condition_of_guard,
               .leave = leave_order},
-    PointRule{.kind = {.type = PointType::cusp, .short_name = "CP", .name = "cusp", .may_stop = true, .mark = 3},
+    PointRule{.kind = kind(PointType::cusp, "CP", "cusp", may_stop, 3),
               .test = test_degeneracy<PointType::cusp>,
               .confirm = confirm_cusp},
-    PointRule{.kind = {.type = PointType::generalised,
-                       .short_name = "GF",
-                       .name = "generalised flip",
-                       .may_stop = true,
-                       .mark = 11},
+    PointRule{.kind = kind(PointType::generalised, "GF", "generalised flip", may_stop, 11),
               .test = test_degeneracy<PointType::generalised>,
-              .confirm = confirm_generalised},
-    PointRule{.kind = {.type = PointType::generalised_torus,
-                       .short_name = "GT",
-                       .name = "generalised torus",
-                       .may_stop = true,
-                       .mark = 11},
+              .confirm = confirm_beside_flip},
+    PointRule{.kind = kind(PointType::generalised_torus, "GT", "generalised torus", may_stop, 11),
               .test = test_degeneracy<PointType::generalised_torus>},
-    PointRule{
-        .kind =
-            {.type = PointType::resonance_1, .short_name = "R1", .name = "1:1 resonance", .may_stop = true, .mark = 6},
-        .test = test_degeneracy<PointType::resonance_1>,
-        .confirm = confirm_resonance},
-    PointRule{
-        .kind =
-            {.type = PointType::resonance_2, .short_name = "R2", .name = "1:2 resonance", .may_stop = true, .mark = 6},
-        .test = test_degeneracy<PointType::resonance_2>,
-        .confirm = confirm_resonance},
-    PointRule{
-        .kind =
-            {.type = PointType::resonance_3, .short_name = "R3", .name = "1:3 resonance", .may_stop = true, .mark = 6},
-        .test = test_degeneracy<PointType::resonance_3>},
-    PointRule{
-        .kind =
-            {.type = PointType::resonance_4, .short_name = "R4", .name = "1:4 resonance", .may_stop = true, .mark = 6},
-        .test = test_degeneracy<PointType::resonance_4>},
-    PointRule{.kind = {.type = PointType::sensitivity,
-                       .short_name = "VS",
-                       .name = "vanishing sensitivity",
-                       .may_stop = true,
-                       .mark = 14},
+    PointRule{.kind = kind(PointType::resonance_1, "R1", "1:1 resonance", may_stop, 6),
+              .test = test_degeneracy<PointType::resonance_1>,
+              .confirm = confirm_resonance},
+    PointRule{.kind = kind(PointType::resonance_2, "R2", "1:2 resonance", may_stop, 6),
+              .test = test_degeneracy<PointType::resonance_2>,
+              .confirm = confirm_resonance},
+    PointRule{.kind = kind(PointType::resonance_3, "R3", "1:3 resonance", may_stop, 6),
+              .test = test_degeneracy<PointType::resonance_3>},
+    PointRule{.kind = kind(PointType::resonance_4, "R4", "1:4 resonance", may_stop, 6),
+              .test = test_degeneracy<PointType::resonance_4>},
+    PointRule{.kind = kind(PointType::sensitivity, "VS", "vanishing sensitivity", may_stop, 14),
               .test = test_sensitivity,
               .confirm = confirm_sensitivity},
-    PointRule{.kind = {.type = PointType::fold_degenerate,
-                       .short_name = "DF",
-                       .name = "fold-degenerate grazing",
-                       .may_stop = true,
-                       .mark = 14},
+    PointRule{.kind = kind(PointType::fold_degenerate, "DF", "fold-degenerate grazing", may_stop, 14),
               .confirm = confirm_degenerate_grazing},
-    PointRule{.kind = {.type = PointType::flip_degenerate,
-                       .short_name = "DP",
-                       .name = "flip-degenerate grazing",
-                       .may_stop = true,
-                       .mark = 14},
+    PointRule{.kind = kind(PointType::flip_degenerate, "DP", "flip-degenerate grazing", may_stop, 14),
               .confirm = confirm_degenerate_grazing},
-    PointRule{.kind = {.type = PointType::zero_acceleration,
-                       .short_name = "ZA",
-                       .name = "zero acceleration",
-                       .limits = true,
-                       .may_stop = true,
-                       .mark = 14},
+    PointRule{.kind = kind(PointType::zero_acceleration, "ZA", "zero acceleration", limits | may_stop, 14),
               .test = test_acceleration,
               .confirm = confirm_acceleration,
               .rank = always<1>},
-    PointRule{.kind = {.type = PointType::double_grazing,
-                       .short_name = "DG",
-                       .name = "double grazing",
-                       .limits = true,
-                       .leads_on = true,
-                       .may_stop = true,
-                       .mark = 12},
-              .confirm = confirm_double_grazing,
-              .rank = rank_of_grazing,
-              .leave = leave_double_grazing},
     PointRule{
-        .kind = {.type = PointType::fold_flip, .short_name = "FP", .name = "fold-flip", .may_stop = true, .mark = 15},
-        .confirm = confirm_fold_flip},
-    PointRule{
-        .kind = {.type = PointType::fold_torus, .short_name = "FT", .name = "fold-torus", .may_stop = true, .mark = 15},
-        .confirm = confirm_with_torus},
-    PointRule{
-        .kind = {.type = PointType::flip_torus, .short_name = "PT", .name = "flip-torus", .may_stop = true, .mark = 15},
-        .confirm = confirm_with_torus},
-    PointRule{.kind = {.type = PointType::chatter,
-                       .short_name = "CH",
-                       .name = "onset of chatter",
-                       .changes = true,
-                       .limits = true,
-                       .mark = 15}},
-    PointRule{.kind = {.type = PointType::hopf, .short_name = "HB", .name = "Hopf point", .changes = true, .mark = 5}},
-    PointRule{
-        .kind = {.type = PointType::extremum, .short_name = "EX", .name = "extremum", .may_stop = true, .mark = 1},
-        .test = test_extremum,
-        .confirm = confirm_extremum},
-    PointRule{.kind = {.type = PointType::bound, .short_name = "BD", .name = "bound"},
-              .test = test_bounds,
-              .confirm = confirm_bound},
-    PointRule{
-        .kind = {.type = PointType::crossing, .short_name = "UZ", .name = "crossing", .may_stop = true, .mark = 2},
-        .test = test_crossings,
-        .confirm = confirm_crossing},
-    PointRule{.kind = {.type = PointType::end, .short_name = "EP", .name = "end"}},
-    PointRule{.kind = {.type = PointType::regular, .short_name = "RG", .name = "regular"}},
+        .kind = kind(PointType::double_grazing, "DG", "double grazing", limits | has_bifurcating_branch | may_stop, 12),
+        .confirm = confirm_double_grazing,
+        .rank = rank_of_grazing,
+        .leave = leave_double_grazing},
+    PointRule{.kind = kind(PointType::fold_flip, "FP", "fold-flip", may_stop, 15), .confirm = confirm_beside_flip},
+    PointRule{.kind = kind(PointType::fold_torus, "FT", "fold-torus", may_stop, 15), .confirm = confirm_with_torus},
+    PointRule{.kind = kind(PointType::flip_torus, "PT", "flip-torus", may_stop, 15), .confirm = confirm_with_torus},
+    PointRule{.kind = kind(PointType::chatter, "CH", "onset of chatter", changes | limits, 15)},
+    PointRule{.kind = kind(PointType::hopf, "HB", "Hopf point", changes, 5)},
+    PointRule{.kind = kind(PointType::extremum, "EX", "extremum", may_stop, 1),
+              .test = test_extremum,
+              .confirm = confirm_extremum},
+    PointRule{.kind = kind(PointType::bound, "BD", "bound"), .test = test_bounds, .confirm = confirm_bound},
+    PointRule{.kind = kind(PointType::crossing, "UZ", "crossing", may_stop, 2),
+              .test = test_crossings,
+              .confirm = confirm_crossing},
+    PointRule{.kind = kind(PointType::end, "EP", "end")},
+    PointRule{.kind = kind(PointType::regular, "RG", "regular")},
 };
 
 constexpr auto kinds = [] {
@@ -242,6 +142,24 @@ constexpr auto kinds = [] {
         result[i] = table[i].kind;
     return result;
 }();
+
+constexpr std::string_view digits = "0123456789";
+
+/// Returns "-" if a type ends with a digit, to separate it from the number.
+std::string_view separator_after(std::string_view type) {
+    return digits.find(type.back()) != std::string_view::npos ? "-" : "";
+}
+
+/// Returns the number of segments of zero duration after a segment.
+std::size_t zero_durations_after(const Orbit& orbit, std::size_t segment) {
+    constexpr double nothing = 1e-8; // share of the period; located points are far more accurate
+    const std::size_t count = orbit.durations.size();
+    std::size_t result = 0;
+    while (result + 1 < count &&
+           std::abs(orbit.durations[(segment + result + 1) % count]) < nothing * orbit.return_time())
+        ++result;
+    return result;
+}
 
 } // namespace
 
@@ -269,17 +187,6 @@ std::optional<PointType> point_type(std::string_view name) {
     return std::nullopt;
 }
 
-namespace {
-
-constexpr std::string_view digits = "0123456789";
-
-/// Returns "-" if a type ends with a digit, to separate it from the number.
-std::string_view separator_after(std::string_view type) {
-    return digits.find(type.back()) != std::string_view::npos ? "-" : "";
-}
-
-} // namespace
-
 std::string point_label(PointType type, std::size_t number) {
     const std::string_view name = short_name(type);
     return fmt::format("{}{}{}", name, separator_after(name), number);
@@ -293,36 +200,46 @@ bool is_point_label(std::string_view text) {
     });
 }
 
-namespace {
+std::optional<HeldLimit> held_limit_of(const SpecialPoint& point) {
+    const auto held = [&](HeldLimit::Kind kind, std::size_t zero_durations = 0) {
+        return HeldLimit{kind, point.segment, point.event, zero_durations};
+    };
+    if (point.type == PointType::grazing)
+        return point.at_end ? held(HeldLimit::Kind::stop, zero_durations_after(point.solution.orbit, point.segment))
+                            : held(HeldLimit::Kind::touch);
+    if (point.type == PointType::vanishing)
+        return held(HeldLimit::Kind::vanishing);
+    return point.type == PointType::guard ? std::optional(held(HeldLimit::Kind::guard)) : std::nullopt;
+}
 
-/// Returns the number of segments of zero duration after a segment.
-std::size_t zero_durations_after(const Orbit& orbit, std::size_t segment) {
-    constexpr double nothing = 1e-8; // share of the period; located points are far more accurate
-    const std::size_t count = orbit.durations.size();
-    std::size_t result = 0;
-    while (result + 1 < count &&
-           std::abs(orbit.durations[(segment + result + 1) % count]) < nothing * orbit.return_time())
-        ++result;
+SpecialPoint grazing_at(const SpecialPoint& point, const OrbitTouch& touch) {
+    SpecialPoint result = point;
+    result.type = PointType::grazing;
+    result.segment = touch.segment;
+    result.event = touch.event;
+    result.time = touch.time;
+    result.at_end = touch.at_end;
     return result;
 }
 
-} // namespace
+std::optional<OrbitMinimum> touch_in(const Certificate& certificate, std::size_t segment, std::size_t event) {
+    std::optional<OrbitMinimum> nearest;
+    for (const OrbitMinimum& one : certificate.minima)
+        if (one.segment == segment && one.event == event &&
+            (!nearest || std::abs(one.value) < std::abs(nearest->value)))
+            nearest = one;
+    return nearest;
+}
 
-std::optional<HeldLimit> held_limit_of(const SpecialPoint& point) {
-    const auto held = [&](HeldLimit::Kind kind) { return HeldLimit{kind, point.segment, point.event, 0}; };
-    switch (point.type) {
-    case PointType::grazing:
-        if (!point.at_end)
-            return held(HeldLimit::Kind::touch);
-        return HeldLimit{HeldLimit::Kind::stop, point.segment, point.event,
-                         zero_durations_after(point.solution.orbit, point.segment)};
-    case PointType::vanishing:
-        return held(HeldLimit::Kind::vanishing);
-    case PointType::guard:
-        return held(HeldLimit::Kind::guard);
-    default:
-        return std::nullopt;
-    }
+std::optional<OrbitMinimum> nearest_touch(const Certificate& certificate, std::size_t event) {
+    double distance = 1e-2;
+    std::optional<OrbitMinimum> nearest;
+    for (const OrbitMinimum& one : certificate.minima)
+        if (one.event == event && std::abs(one.value) < distance * one.size) {
+            distance = std::abs(one.value) / one.size;
+            nearest = one;
+        }
+    return nearest;
 }
 
 std::vector<BranchTest> branch_tests(const TestedPoint& point) {

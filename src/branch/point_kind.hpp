@@ -3,9 +3,11 @@
 #include "branch/orbit_condition.hpp"
 #include "graze/branch/orbit_branch.hpp"
 #include "graze/branch/switching.hpp"
+#include "graze/grazing/cycle_map.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/orbit_equations.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -19,6 +21,27 @@ class BranchState;
 /// True for touches and contacts of zero speed, on branches and on curves of touches.
 inline bool is_grazing(PointType type) {
     return type == PointType::grazing || type == PointType::double_grazing;
+}
+
+/// Returns a point as a grazing at one of the touches of its orbit.
+SpecialPoint grazing_at(const SpecialPoint& point, const OrbitTouch& touch);
+
+/// Returns the minimum of an event function in a segment that is nearest to zero; empty if it has none.
+std::optional<OrbitMinimum> touch_in(const Certificate& certificate, std::size_t segment, std::size_t event);
+/// Returns the minimum of an event function that is nearest to zero, in units of the function's size along its arc;
+/// empty if none is nearer than a hundredth.
+std::optional<OrbitMinimum> nearest_touch(const Certificate& certificate, std::size_t event);
+
+/// True when the branch is a curve of touches inside arcs.
+inline bool keeps_touch(const BranchSettings& settings) {
+    return settings.kept && settings.kept->type == PointType::grazing && !settings.kept->at_end;
+}
+
+/// True when a monitor refers to the start or end of a segment.
+inline bool refer_to_segments(const std::vector<Monitor>& monitors) {
+    return std::any_of(monitors.begin(), monitors.end(), [](const Monitor& one) {
+        return !one.segment.empty() || one.kind == Monitor::Kind::value || one.kind == Monitor::Kind::start;
+    });
 }
 
 /// A test function along a branch: a change of its sign indicates a special point.
@@ -62,20 +85,23 @@ inline bool is_kept(const TestedPoint& point, PointType type, std::size_t segmen
 
 /// A kind of special points with all its functions: an entry of the table.
 struct PointRule {
+    // Types of functions.
+    using Test = void(const TestedPoint& point, std::vector<BranchTest>& tests);
+    using Confirm = bool(BranchState& state, SpecialPoint& special, const BranchTest& test);
+    using Rank = int(const SpecialPoint& point);
+    using Condition = std::unique_ptr<OrbitCondition>(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                                      const SpecialPoint& point);
+    using Leave = std::vector<BranchStart>(const System& system, const SpecialPoint& point,
+                                           const BranchSettings& settings);
+
     PointKind kind;
-    /// Adds its test functions, always the same number for one signature. Null: not detected.
-    void (*test)(const TestedPoint& point, std::vector<BranchTest>& tests) = nullptr;
-    /// Confirms a located zero of the test and sets `detail`. Null: confirmed if located.
-    bool (*confirm)(BranchState& state, SpecialPoint& special, const BranchTest& test) = nullptr;
-    /// Rank among several points at the same place: the lowest is kept. Null: it excludes no other.
-    int (*rank)(const SpecialPoint& point) = nullptr;
-    /// Returns the condition that holds the point along a curve. Null: there is none, as for branch points, which
-    /// disappear under perturbation. Returns null if not available for this point.
-    std::unique_ptr<OrbitCondition> (*condition)(const OrbitEquations& equations, const OrbitEvaluation& at,
-                                                 const SpecialPoint& point) = nullptr;
-    /// Returns the branches that leave the point. Null: none.
-    std::vector<BranchStart> (*leave)(const System& system, const SpecialPoint& point,
-                                      const BranchSettings& settings) = nullptr;
+    Test* test = nullptr;       ///< adds its test functions, always the same number for one signature; null: none
+    Confirm* confirm = nullptr; ///< confirms a located zero of the test and sets `detail`; null: confirmed if located
+    Rank* rank = nullptr;       ///< rank among points at the same place: the lowest is kept; null: it excludes no other
+    /// Returns the condition that holds the point along a curve; null where it is not available. Null: there is none,
+    /// as for branch points, which disappear under perturbation.
+    Condition* condition = nullptr;
+    Leave* leave = nullptr; ///< returns the branches that leave the point; null: none
 };
 
 /// Returns all rules, in the order of their types: a new kind of special points is one more entry.
@@ -85,6 +111,10 @@ const PointRule& rule_of(PointType type);
 /// Returns the constraint by which a point's condition places its orbits at the limit of admissibility; empty if it
 /// does not.
 std::optional<HeldLimit> held_limit_of(const SpecialPoint& point);
+/// The same for the kept point of a curve; empty for branches that are no curves.
+inline std::optional<HeldLimit> held_limit_of(const BranchSettings& settings) {
+    return settings.kept ? held_limit_of(*settings.kept) : std::nullopt;
+}
 
 /// Returns all test functions at a point, always in the same order for one signature.
 std::vector<BranchTest> branch_tests(const TestedPoint& point);

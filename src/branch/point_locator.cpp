@@ -1,5 +1,6 @@
 #include "branch/point_locator.hpp"
 
+#include "base/special_numbers.hpp"
 #include "branch/bounds.hpp"
 #include "branch/missed_points.hpp"
 #include "branch/point_kind.hpp"
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace graze {
 
@@ -28,21 +28,19 @@ bool is_jump(const BranchTest& touch) {
 
 } // namespace
 
-std::vector<SpecialPoint> PointLocator::locate_all(const BranchPoint& before, const std::vector<BranchTest>& tests) {
+std::vector<SpecialPoint> PointLocator::locate_all(const DescribedPoint& before) {
+    const std::vector<BranchTest>& tests = before.tests;
     std::vector<SpecialPoint> found;
-    if (tests.size() != tests_->size())
+    if (tests.size() != here_->tests.size())
         return found;
-    const double from = before.arclength, length = point_->arclength - from;
+    const double from = before.point.arclength, length = here_->point.arclength - from;
     for (std::size_t i = 0; i < tests.size(); ++i)
         for (const auto& [low, high] : brackets_of(i, tests[i].value))
             if (std::optional<SpecialPoint> special = locate(i, low, high)) {
-                note(*special, before, tests[i].singular);
+                note(*special, before.point, tests[i].singular);
                 found.push_back(std::move(*special));
             }
-    const std::size_t count = found.size();
-    add_bounds_before(found, tests);
-    for (std::size_t i = count; i < found.size(); ++i)
-        note(found[i], before, false);
+    add_bounds_before(found, before);
     older_ = tests;
     older_arclength_ = from;
     sort_by_place(found);
@@ -54,20 +52,14 @@ std::vector<SpecialPoint> PointLocator::locate_all(const BranchPoint& before, co
             special.parameter = special.solution.orbit.parameters[state_->settings().parameter.place()];
         }
     }
-    merge(found, length);
-    drop_spurious_crossings(*state_, found, length);
-    drop_multipliers_of_resonances(found, length);
-    drop_parts_of_sensitivity(found, length);
-    drop_folds_at_return(*state_, found, length);
-    drop_folds_at_branch_points(found, length);
+    drop_consequences(*state_, found, length);
     state_->problem().evaluate(state_->continuation().point().u);
     return found;
 }
 
 /// Sorts points by arclength; a point on a bound comes before the bound, which ends the branch.
 void PointLocator::sort_by_place(std::vector<SpecialPoint>& found) const {
-    const Continuation& continuation = state_->continuation();
-    const double length = continuation.point().arclength - continuation.previous().arclength;
+    const double length = state_->last_step().length;
     const auto place = [&](const SpecialPoint& special) {
         return special.arclength + (special.type == PointType::bound ? on_bound * length : 0);
     };
@@ -75,29 +67,24 @@ void PointLocator::sort_by_place(std::vector<SpecialPoint>& found) const {
                      [&](const SpecialPoint& a, const SpecialPoint& b) { return place(a) < place(b); });
 }
 
-void PointLocator::add_missed(std::vector<SpecialPoint>& found, const BranchPoint& before,
-                              const std::vector<BranchTest>& tests) {
+void PointLocator::add_missed(std::vector<SpecialPoint>& found, const DescribedPoint& before) {
     constexpr double beside = 1e-4; // fraction of the step: determinants vanish where a contact disappears
     constexpr double same_place = 1e-7;
     const BranchSettings& settings = state_->settings();
-    if (settings.kept || !settings.free.empty() || tests.size() != tests_->size())
+    if (settings.kept || !settings.free.empty() || before.tests.size() != here_->tests.size())
         return; // on curves and with fixed monitors, folds need no multiplier 1
-    const double from = before.arclength, length = point_->arclength - from;
+    const double from = before.point.arclength, length = here_->point.arclength - from;
     if (!(length > 0))
         return;
-    StepSample low{0, tests, multipliers_followed(before.solution)},
-        high{1, *tests_, multipliers_followed(point_->solution)};
+    StepSample high{1, *here_};
     std::vector<SpecialPoint> known;
     for (const SpecialPoint& one : found) {
-        const bool is_limit = kind_of(one.type).limits || is_degenerate(*state_, one);
-        if (is_limit) {
-            ContinuationPoint at;
-            BranchPoint there;
-            high.fraction = (one.arclength - from) / length - beside;
-            if (!(high.fraction > 0) || !state_->continuation().between(high.fraction, at) ||
-                !state_->describe(at, there, high.tests))
+        if (kind_of(one.type).limits || is_degenerate(*state_, one)) {
+            const double fraction = (one.arclength - from) / length - beside;
+            auto there = fraction > 0 ? state_->describe_between(fraction) : std::nullopt;
+            if (!there)
                 return;
-            high.multipliers = multipliers_followed(there.solution);
+            high = {fraction, std::move(*there)};
             break;
         }
         known.push_back(one);
@@ -105,12 +92,12 @@ void PointLocator::add_missed(std::vector<SpecialPoint>& found, const BranchPoin
     const auto locate_test = [&](std::size_t test, const TestValue& first, const TestValue& last) {
         return locate(test, first, last);
     };
-    for (SpecialPoint& one : missed_points(*state_, low, high, known, locate_test)) {
+    for (SpecialPoint& one : missed_points(*state_, {0, before}, high, known, locate_test)) {
         // A report of several crossings replaces the single point that a test has found there.
         std::erase_if(found, [&](const SpecialPoint& other) {
             return other.type == one.type && std::abs(other.arclength - one.arclength) < same_place * length;
         });
-        note(one, before, one.type == PointType::branch_point);
+        note(one, before.point, one.type == PointType::branch_point);
         found.push_back(std::move(one));
     }
     sort_by_place(found);
@@ -118,15 +105,22 @@ void PointLocator::add_missed(std::vector<SpecialPoint>& found, const BranchPoin
 }
 
 void PointLocator::note(SpecialPoint& special, const BranchPoint& before, bool singular) {
-    special.bracket = std::minmax(before.parameter, point_->parameter);
-    special.step = point_->step;
-    accept_limit(special, before.solution.certificate.admissible);
+    special.bracket = std::minmax(before.parameter, here_->point.parameter);
+    special.step = here_->point.step;
+    // A limit point is admissible if orbits on one side are: at the limit round-off would decide.
+    Certificate& certificate = special.solution.certificate;
+    if (rank(special) >= 0 && !certificate.admissible &&
+        (before.solution.certificate.admissible || here_->point.solution.certificate.admissible)) {
+        certificate.admissible = true;
+        certificate.reason.clear();
+    }
     if (!singular)
         special.solution.error = state_->error_of(special.solution.orbit, special.tangent);
 }
 
 /// Adds bounds that the branch crosses before a found point and crosses back within the same step.
-void PointLocator::add_bounds_before(std::vector<SpecialPoint>& found, const std::vector<BranchTest>& tests) {
+void PointLocator::add_bounds_before(std::vector<SpecialPoint>& found, const DescribedPoint& before) {
+    const std::vector<BranchTest>& tests = before.tests;
     const LastStep step = state_->last_step();
     const std::vector<SpecialPoint> all = found;
     for (const SpecialPoint& one : all) {
@@ -143,8 +137,10 @@ void PointLocator::add_bounds_before(std::vector<SpecialPoint>& found, const std
                 continue;
             const double value = there[bound++].value;
             if (tests[i].value > 0 && value < 0)
-                if (auto special = locate(i, {0, tests[i].value}, {step.fraction(one.arclength), value}))
+                if (auto special = locate(i, {0, tests[i].value}, {step.fraction(one.arclength), value})) {
+                    note(*special, before.point, false);
                     found.push_back(std::move(*special));
+                }
         }
     }
 }
@@ -159,63 +155,50 @@ bool PointLocator::is_beyond(const SpecialPoint& special, const std::vector<Bran
     for (std::size_t i = 0; i < tests.size(); ++i) {
         if (tests[i].type != PointType::bound)
             continue;
-        const double change = std::abs((*tests_)[i].value - tests[i].value), value = there[bound++].value;
+        const double change = std::abs(here_->tests[i].value - tests[i].value), value = there[bound++].value;
         if (value < -std::max(tests[i].noise, on_bound * change))
             return true;
     }
     return false;
 }
 
-bool PointLocator::misses_bound(const std::vector<SpecialPoint>& found, const std::vector<BranchTest>& tests) const {
+bool PointLocator::misses_bound(const std::vector<SpecialPoint>& found, const DescribedPoint& before) const {
     for (const SpecialPoint& special : found) {
         if (special.type == PointType::bound)
             return false;
-        if (is_beyond(special, tests))
+        if (is_beyond(special, before.tests))
             return true;
     }
-    return is_beyond_bounds(*tests_);
-}
-
-/// Marks a limit point as admissible if orbits on one side are: at the limit round-off would decide.
-void PointLocator::accept_limit(SpecialPoint& special, bool was_admissible) const {
-    Certificate& certificate = special.solution.certificate;
-    if (rank(special) < 0 || certificate.admissible)
-        return;
-    certificate.admissible = was_admissible || point_->solution.certificate.admissible;
-    if (certificate.admissible)
-        certificate.reason.clear();
+    return is_beyond_bounds(here_->tests);
 }
 
 /// Returns the parts of the last step in which a test changes its sign.
 std::vector<std::pair<TestValue, TestValue>> PointLocator::brackets_of(std::size_t test, double before) {
-    const TestValue low{0, before}, high{1, (*tests_)[test].value};
-    const double noise = (*tests_)[test].noise;
-    const bool appears = (*tests_)[test].appears;
-    const bool appeared = appears && std::isnan(low.value) && high.value < -noise;
-    const bool vanished = appears && std::isnan(high.value) && low.value < -noise;
+    const BranchTest& now = here_->tests[test];
+    const TestValue low{0, before}, high{1, now.value};
+    const double noise = now.noise;
+    const bool appeared = now.appears && std::isnan(low.value) && high.value < -noise;
+    const bool vanished = now.appears && std::isnan(high.value) && low.value < -noise;
     if (std::abs(low.value) <= noise && std::abs(high.value) <= noise && noise > 0)
         return {};
     // Orbits with several touches are often simpler ones traversed repeatedly. A test that reaches zero is then the
     // same touch, which becomes a contact only beyond.
     const bool is_zero = std::abs(low.value) <= noise || std::abs(high.value) <= noise;
-    if ((*tests_)[test].type == PointType::double_grazing && is_zero && noise > 0)
+    if (now.type == PointType::double_grazing && is_zero && noise > 0)
         return {};
     // A branch that begins on a bound may lie beyond it by round-off.
-    if ((*tests_)[test].type == PointType::bound && !(low.value > 0))
+    if (now.type == PointType::bound && !(low.value > 0))
         return {};
     if (low.value * high.value < 0 || appeared || vanished || (high.value == 0 && low.value != 0))
         return {{low, high}};
-    if (older_.size() != tests_->size() || !(low.value * high.value > 0))
+    if (older_.size() != here_->tests.size() || !(low.value * high.value > 0))
         return {};
     const auto dip = possible_dip({state_->last_step().fraction(older_arclength_), older_[test].value}, low, high);
     if (!dip)
         return {};
     const auto value_at = [&](double fraction) {
-        ContinuationPoint at;
-        BranchPoint there;
-        std::vector<BranchTest> sampled;
-        const bool known = state_->continuation().between(fraction, at) && state_->describe(at, there, sampled);
-        return known ? sampled[test].value : std::numeric_limits<double>::quiet_NaN();
+        const auto there = state_->describe_between(fraction);
+        return there ? there->tests[test].value : not_a_number;
     };
     const auto zeros = dip_between(low, high, *dip, value_at);
     if (!zeros || std::abs(zeros->within.value) <= noise)
@@ -224,7 +207,7 @@ std::vector<std::pair<TestValue, TestValue>> PointLocator::brackets_of(std::size
 }
 
 std::optional<SpecialPoint> PointLocator::locate(std::size_t test, const TestValue& low, const TestValue& high) {
-    if ((*tests_)[test].singular)
+    if (here_->tests[test].singular)
         return locate_by_crossing(test, low, high);
     bool complete = true;
     std::optional<SpecialPoint> special = locate_zero(test, low, high, complete);
@@ -249,24 +232,22 @@ std::optional<SpecialPoint> PointLocator::locate_zero(std::size_t test, const Te
     double low = begin.fraction, low_value = begin.value, high = end.fraction, high_value = end.value;
     double fraction = 0;
     const double size = std::fmax(std::abs(low_value), std::abs(high_value));
-    ContinuationPoint at;
-    BranchPoint there;
-    std::vector<BranchTest> tests;
-    bool found_any = false;
-    std::optional<BranchTest> last; // last test with a defined value
+    std::optional<DescribedPoint> there; // at the last fraction
+    std::optional<BranchTest> last;      // last test with a defined value
     int side = 0;
     for (int i = 0; i < most_locating_steps && high - low > located_within; ++i) {
         fraction = low - low_value * (high - low) / (high_value - low_value); // NaN if one value is NaN
         if (!(fraction > low && fraction < high) || i % 8 == 7)
             fraction = 0.5 * (low + high);
-        if (!state_->continuation().between(fraction, at) || !state_->describe(at, there, tests)) {
+        auto next = state_->describe_between(fraction);
+        if (!next) {
             complete = false;
             break;
         }
-        found_any = true;
-        const double value = tests[test].value;
+        there = std::move(next);
+        const double value = there->tests[test].value;
         if (std::isfinite(value))
-            last = tests[test];
+            last = there->tests[test];
         if (value == 0)
             break;
         if ((value < 0) == (low_value < 0)) {
@@ -281,11 +262,11 @@ std::optional<SpecialPoint> PointLocator::locate_zero(std::size_t test, const Te
             side = 1;
         }
     }
-    if (!found_any || (last && is_jump(*last)))
+    if (!there || (last && is_jump(*last)))
         return std::nullopt;
-    if (last && std::isnan(tests[test].value)) // use the last defined time
-        tests[test].time = last->time;
-    return special_at(there, tests[test], size);
+    if (last && std::isnan(there->tests[test].value)) // use the last defined time
+        there->tests[test].time = last->time;
+    return special_at(there->point, there->tests[test], size);
 }
 
 /// Locates a zero at or near the crossing with another branch, where determinants vanish.
@@ -293,24 +274,23 @@ std::optional<SpecialPoint> PointLocator::locate_by_crossing(std::size_t test, c
                                                              const TestValue& high) {
     constexpr double reduction = 0.25, shortest = 1e-3;
     constexpr double solved = 1e-8; // scaled residual
-    BranchPoint there;
-    std::vector<BranchTest> tests;
+    const bool singular = here_->tests[test].singular;
     const PointTest value = [&](const ContinuationPoint& sample) {
-        if ((*tests_)[test].singular)
+        if (singular)
             return sample.determinant;
-        return state_->describe(sample, there, tests) ? tests[test].value : std::numeric_limits<double>::quiet_NaN();
+        const auto there = state_->describe(sample);
+        return there ? there->tests[test].value : not_a_number;
     };
     std::optional<ContinuationPoint> at = locate_crossing(state_->continuation(), value, low, high);
     // Another crossing may be near, outside this part of the step.
     const bool is_part = high.fraction - low.fraction < 1;
     for (double reach = reduction; is_part && !at && reach > shortest; reach *= reduction)
         at = locate_crossing(state_->continuation(), value, low, high, reach);
-    if (!at || !state_->describe(*at, there, tests))
-        return std::nullopt;
+    const auto there = at ? state_->describe(*at) : std::nullopt;
     // If two nearby branches do not cross, the interpolated point does not satisfy the equations.
-    if ((*tests_)[test].singular && !(state_->problem().evaluation().residual < solved))
+    if (!there || (singular && !(state_->problem().evaluation().residual < solved)))
         return std::nullopt;
-    return special_at(there, tests[test], std::max(std::abs(low.value), std::abs(high.value)));
+    return special_at(there->point, there->tests[test], std::max(std::abs(low.value), std::abs(high.value)));
 }
 
 /// Returns the special point of a zero, if it is confirmed. @param size of the test at the ends of the bracket

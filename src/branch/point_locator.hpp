@@ -12,38 +12,34 @@ namespace graze {
 /// Finds the special points within the last step of a branch.
 class PointLocator {
 public:
-    /// @param point the last point; @param tests the tests there
-    PointLocator(BranchState& state, const BranchPoint& point, const std::vector<BranchTest>& tests)
-        : state_(&state), point_(&point), tests_(&tests) {}
+    /// @param here the last point, which the caller updates
+    PointLocator(BranchState& state, const DescribedPoint& here) : state_(&state), here_(&here) {}
 
     /// Returns all special points within the step, in the order of the branch.
-    /// @param before the start point of the step; @param tests the tests there
-    std::vector<SpecialPoint> locate_all(const BranchPoint& before, const std::vector<BranchTest>& tests);
+    /// @param before the start point of the step
+    std::vector<SpecialPoint> locate_all(const DescribedPoint& before);
     /// Adds points at which multipliers cross without a sign change of a test, as two of them within one step.
     /// @param found points of `locate_all`
-    void add_missed(std::vector<SpecialPoint>& found, const BranchPoint& before, const std::vector<BranchTest>& tests);
+    void add_missed(std::vector<SpecialPoint>& found, const DescribedPoint& before);
     /// True when the end of the step, or a found point, lies beyond a bound although no point on the bound was found.
-    /// @param tests at the start point of the step
-    bool misses_bound(const std::vector<SpecialPoint>& found, const std::vector<BranchTest>& tests) const;
+    bool misses_bound(const std::vector<SpecialPoint>& found, const DescribedPoint& before) const;
     /// Forgets earlier tests, after a change of the equations.
     void forget() { older_.clear(); }
 
 private:
-    void accept_limit(SpecialPoint& special, bool was_admissible) const;
     std::vector<std::pair<TestValue, TestValue>> brackets_of(std::size_t test, double before);
     std::optional<SpecialPoint> locate(std::size_t test, const TestValue& low, const TestValue& high);
     std::optional<SpecialPoint> locate_zero(std::size_t test, const TestValue& begin, const TestValue& end,
                                             bool& complete);
     std::optional<SpecialPoint> locate_by_crossing(std::size_t test, const TestValue& low, const TestValue& high);
-    void add_bounds_before(std::vector<SpecialPoint>& found, const std::vector<BranchTest>& tests);
+    void add_bounds_before(std::vector<SpecialPoint>& found, const DescribedPoint& before);
     bool is_beyond(const SpecialPoint& special, const std::vector<BranchTest>& tests) const;
     void sort_by_place(std::vector<SpecialPoint>& found) const;
     void note(SpecialPoint& special, const BranchPoint& before, bool singular);
     std::optional<SpecialPoint> special_at(const BranchPoint& there, const BranchTest& here, double size);
 
     BranchState* state_;
-    const BranchPoint* point_;
-    const std::vector<BranchTest>* tests_;
+    const DescribedPoint* here_;
     std::vector<BranchTest> older_; ///< tests at the start point of the previous step
     double older_arclength_ = 0;
 };

@@ -1,7 +1,7 @@
 #include "branch/reordering.hpp"
 
+#include "branch/bounds.hpp"
 #include "branch/inserted_contact.hpp"
-#include "branch/orbit_problem.hpp"
 #include "graze/base/input_error.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/cut.hpp"
@@ -80,25 +80,22 @@ bool have_same_segments(const Orbit& one, const Orbit& other) {
     return false;
 }
 
-} // namespace
-
-namespace {
-
 /// Returns the scaled unit tangent of the branch in the first parameter alone; empty at its folds.
 std::optional<Eigen::VectorXd> along_branch(const Simulation& simulation, const Orbit& orbit,
                                             const BranchSettings& settings, const OrbitProblem& with_all) {
     OrbitProblem problem(simulation, orbit, settings.parameter);
-    std::vector<double> row(problem.unknowns(), 0.0), onward(problem.unknowns());
-    row[problem.parameter_place()] = 1;
-    if (!problem.evaluate(problem.unknowns_of(orbit)) || !problem.solve(row, 1, true, onward, nullptr))
+    const auto tangent = problem.tangent_at(orbit, 1);
+    if (!tangent)
         return std::nullopt;
-    const std::vector<double> all = with_all.unknowns_of(problem.direction_of(onward));
-    const Eigen::VectorXd result = OrbitProblem::vector_of(all);
-    return result / result.cwiseQuotient(OrbitProblem::vector_of(with_all.scales())).norm();
+    const Eigen::VectorXd result = vector_of(with_all.unknowns_of(*tangent));
+    return result / result.cwiseQuotient(vector_of(with_all.scales())).norm();
 }
 
-} // namespace
-
+/// Returns the motion of the model for one period near a point of a curve, as a first guess; it need not close.
+/// @param distance along the curve, in units of its tangent; negative: backwards
+/// @param aside offset from the curve in the first parameter, in the same units, so that the kept touch is missed or
+/// made
+/// @return empty where the motion cannot be followed or has the signature of the point
 std::optional<Orbit> reordered_beyond(const System& system, const SpecialPoint& point, const BranchSettings& settings,
                                       double distance, double aside) {
     const Simulation simulation(system, {}, {}, integration(settings.orbit.tolerance));
@@ -108,7 +105,7 @@ std::optional<Orbit> reordered_beyond(const System& system, const SpecialPoint& 
     if (point.tangent.is_empty() || !problem.evaluate(u))
         return std::nullopt;
     const std::vector<double> tangent = problem.unknowns_of(point.tangent);
-    Eigen::VectorXd there = OrbitProblem::vector_of(u) + distance * OrbitProblem::vector_of(tangent);
+    Eigen::VectorXd there = vector_of(u) + distance * vector_of(tangent);
     if (aside != 0) {
         const auto off = along_branch(simulation, orbit, settings, problem);
         if (!off)
@@ -119,8 +116,6 @@ std::optional<Orbit> reordered_beyond(const System& system, const SpecialPoint& 
     auto candidate = followed_motion(simulation, problem.equations().orbit_of(there), next_period, why);
     return candidate && !have_same_segments(*candidate, orbit) ? candidate : std::nullopt;
 }
-
-namespace {
 
 /// Solves for an orbit from a guess; empty, with the reason set, if it is not admissible.
 std::optional<Orbit> admissible_from(const Simulation& simulation, const Orbit& guess, const OrbitOptions& options,
@@ -156,24 +151,83 @@ std::optional<BranchStart> start_from(const Simulation& simulation, const Orbit&
     if (!orbit)
         return std::nullopt;
     OrbitProblem problem(simulation, *orbit, settings.parameter);
-    std::vector<double> row(problem.unknowns(), 0.0), onward(problem.unknowns());
-    row[problem.parameter_place()] = 1;
-    const bool falls = orbit->parameters[place] < parameter_there;
-    if (!problem.evaluate(problem.unknowns_of(*orbit)) || !problem.solve(row, falls ? -1 : 1, true, onward, nullptr))
+    const auto onward = problem.tangent_at(*orbit, orbit->parameters[place] < parameter_there ? -1 : 1);
+    if (!onward)
         return std::nullopt;
-    return BranchStart{*orbit, problem.direction_of(onward), 0, "with events in another order"};
+    return BranchStart{*orbit, *onward, 0, "with events in another order"};
 }
 
 } // namespace
+
+bool continue_reordered_curve(BranchState& state, const SpecialPoint& point) {
+    constexpr double lengths[] = {1e-4, 1e-5, 1e-3}; // in units of the scales
+    constexpr double share = 0.1;                    // offset from the curve, as a share of the distance
+    const double rise = point.tangent.parameters.empty() ? 0 : point.tangent.parameters.front();
+    // Guesses lie beside a curve of touches, on both sides, because on it round-off decides whether the surface is
+    // reached.
+    const std::vector<double> beside = keeps_touch(state.settings()) ? std::vector{share, -share} : std::vector{0.0};
+    for (const double distance : lengths)
+        for (const int side : {1, -1})
+            for (const double aside : beside) {
+                const auto guess =
+                    reordered_beyond(state.system(), point, state.settings(), side * distance, aside * distance);
+                if (!guess || !state.continue_curve(*guess, side * rise < 0 ? -1 : 1, point.arclength))
+                    continue;
+                const auto there = state.describe(state.continuation().point());
+                if (there && !is_beyond_bounds(there->tests) && there->point.solution.certificate.admissible)
+                    return true;
+            }
+    return false;
+}
+
+std::string touch_at_edge(const BranchSettings& settings, const Orbit& orbit) {
+    constexpr double at_edge = 1e-3; // share of the segment; the steps become very small before
+    if (!keeps_touch(settings))
+        return "";
+    const SpecialPoint& kept = *settings.kept;
+    const double duration = orbit.durations[kept.segment];
+    const bool at_start = kept.time < at_edge * duration;
+    return at_start || kept.time > (1 - at_edge) * duration
+               ? fmt::format("the touch has come to the {} of segment {}", at_start ? "start" : "end", kept.segment + 1)
+               : "";
+}
+
+std::optional<DescribedPoint> continue_in_next_segment(BranchState& state, const BranchPoint& from) {
+    constexpr double lengths[] = {1e-4, 1e-3, 1e-2}; // in units of the scales
+    constexpr double first_step = 1e-3;
+    OrbitProblem& problem = state.problem();
+    const Orbit& here = from.solution.orbit;
+    const std::size_t old = state.settings().kept->segment;
+    const double share = state.settings().kept->time / here.durations[old];
+    const bool closes = share < 0.5 ? old == 0 : old + 1 == here.segments();
+    const std::vector<double> u = problem.unknowns_of(here);
+    if (!problem.evaluate(u) || (here.symmetry && closes && !state.keep_image_of_touch(here)))
+        return std::nullopt;
+    const std::vector<double> tangent = problem.unknowns_of(from.tangent);
+    std::vector<Orbit> guesses;
+    for (const double distance : lengths)
+        guesses.push_back(problem.equations().orbit_of(vector_of(u) + distance * vector_of(tangent)));
+    for (const Orbit& guess : guesses) {
+        if (!state.continue_curve(guess, from.tangent.parameters.front() < 0 ? -1 : 1, from.arclength))
+            continue;
+        // The touch must continue at the opposite end, in the neighbouring segment or, if there is only one, in the
+        // same.
+        const SpecialPoint& kept = *state.settings().kept;
+        if ((kept.time / guess.durations[kept.segment] < 0.5) == (share < 0.5) && kept.segment == old)
+            continue;
+        auto beyond = state.describe(state.continuation().point());
+        if (!beyond || !beyond->point.solution.certificate.admissible || is_beyond_bounds(beyond->tests))
+            continue;
+        state.continuation().set_next_step(first_step);
+        return beyond;
+    }
+    return std::nullopt;
+}
 
 BranchStart with_events_reordered(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
     const Simulation simulation(system, {}, {}, integration(settings.orbit.tolerance));
     const Orbit& orbit = point.solution.orbit;
     std::string why = "the branch's direction is not known";
-    const auto remember = [&why](const std::string& reason) {
-        if (!reason.empty())
-            why = reason;
-    };
     OrbitProblem problem(simulation, orbit, settings.parameter);
     const std::vector<double> u = problem.unknowns_of(orbit);
     if (!point.tangent.is_empty() && problem.evaluate(u)) {
@@ -182,18 +236,18 @@ BranchStart with_events_reordered(const System& system, const SpecialPoint& poin
         for (const PeriodsTaken& periods : all_choices)
             for (const double distance : distances)
                 for (const double side : {1.0, -1.0}) {
-                    const Eigen::VectorXd there =
-                        OrbitProblem::vector_of(u) + side * distance * OrbitProblem::vector_of(tangent);
+                    const Eigen::VectorXd there = vector_of(u) + side * distance * vector_of(tangent);
                     const Orbit beyond = problem.equations().orbit_of(there);
                     std::string reason;
                     const auto candidate = followed_motion(simulation, beyond, periods, reason);
-                    remember(reason);
-                    if (!candidate || have_same_segments(*candidate, orbit))
-                        continue;
-                    if (auto start = start_from(simulation, *candidate, settings,
-                                                orbit.parameters[settings.parameter.place()], reason))
+                    const auto start = candidate && !have_same_segments(*candidate, orbit)
+                                           ? start_from(simulation, *candidate, settings,
+                                                        orbit.parameters[settings.parameter.place()], reason)
+                                           : std::nullopt;
+                    if (start)
                         return *start;
-                    remember(reason);
+                    if (!reason.empty())
+                        why = reason;
                 }
     }
     throw InputError(fmt::format("no orbit was found beyond the point: {}", why), "the branch may end here");

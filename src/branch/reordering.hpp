@@ -1,8 +1,9 @@
 #pragma once
 
-#include "graze/branch/switching.hpp"
+#include "branch/branch_state.hpp"
 
 #include <optional>
+#include <string>
 
 namespace graze {
 
@@ -11,12 +12,16 @@ namespace graze {
 /// @throws InputError when no orbit is found
 BranchStart with_events_reordered(const System& system, const SpecialPoint& point, const BranchSettings& settings);
 
-/// Returns the motion of the model for one period near such a point of a curve, as a first guess; it need not close.
-/// @param distance along the curve, in units of its tangent; negative: backwards
-/// @param aside offset from the curve in the first parameter, in the same units, so that the kept touch is missed or
-/// made
-/// @return empty where the motion cannot be followed or has the signature of the point
-std::optional<Orbit> reordered_beyond(const System& system, const SpecialPoint& point, const BranchSettings& settings,
-                                      double distance, double aside);
+/// Continues a curve beyond such a point from the motion of the model near it. @return false when no orbit is found;
+/// the state is then unusable
+bool continue_reordered_curve(BranchState& state, const SpecialPoint& point);
+
+/// Returns a message if the kept touch has reached an edge of its segment, beyond which it belongs to another segment;
+/// empty otherwise.
+std::string touch_at_edge(const BranchSettings& settings, const Orbit& orbit);
+/// Continues a curve with the kept touch in the neighbouring segment. There the second derivative of the event function
+/// jumps, while its value and rate are continuous. Beyond the ends of a half orbit its image touches the image of the
+/// event. @return the first point there; empty when none is found
+std::optional<DescribedPoint> continue_in_next_segment(BranchState& state, const BranchPoint& from);
 
 } // namespace graze

@@ -1,5 +1,6 @@
 #include "branch/sensitivity_condition.hpp"
 
+#include "branch/point_kind.hpp"
 #include "grazing/return_map.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/eigen_index.hpp"
@@ -44,19 +45,17 @@ bool SensitivityCondition::evaluate(const OrbitEquations& equations, const Orbit
     value_ = *here;
     gradient_.resize(at.unknowns.size());
     for (Eigen::Index i = 0; i < at.unknowns.size(); ++i) {
-        double values[2], places[2];
-        for (const int side : {0, 1}) {
+        double change = 0, apart = 0;
+        for (const int side : {-1, 1}) {
             Eigen::VectorXd unknowns = at.unknowns;
-            unknowns[i] += (side == 0 ? -step : step) * at.scales[i];
-            if (!displaced_.evaluate(unknowns, tried_))
-                return false;
-            const auto there = projection(displaced_, tried_);
+            unknowns[i] += side * step * at.scales[i];
+            const auto there = displaced_.evaluate(unknowns, tried_) ? projection(displaced_, tried_) : std::nullopt;
             if (!there)
                 return false;
-            values[side] = *there;
-            places[side] = unknowns[i];
+            change += side * *there;
+            apart += side * unknowns[i];
         }
-        gradient_[i] = (values[1] - values[0]) / (places[1] - places[0]);
+        gradient_[i] = change / apart;
     }
     return gradient_.allFinite();
 }
@@ -65,13 +64,8 @@ bool SensitivityCondition::evaluate(const OrbitEquations& equations, const Orbit
 void SensitivityCondition::renew(const OrbitEquations& equations, const OrbitEvaluation& at) {
     if (!displaced_.evaluate(at.unknowns, tried_))
         return;
-    std::optional<OrbitMinimum> nearest;
-    for (const OrbitMinimum& minimum : certify(displaced_, tried_).minima)
-        if (minimum.segment == segment_ && minimum.event == event_ &&
-            (!nearest || std::abs(minimum.value) < std::abs(nearest->value)))
-            nearest = minimum;
-    if (nearest)
-        share_ = nearest->time / equations.orbit_of(at.unknowns).durations[segment_];
+    if (const auto touch = touch_in(certify(displaced_, tried_), segment_, event_))
+        share_ = touch->time / equations.orbit_of(at.unknowns).durations[segment_];
 }
 
 } // namespace graze

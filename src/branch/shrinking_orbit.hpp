@@ -2,43 +2,44 @@
 
 #include "branch/branch_state.hpp"
 #include "branch/hopf_point.hpp"
-#include "orbit/cut.hpp"
 
+#include <functional>
 #include <optional>
+#include <vector>
 
 namespace graze {
 
-/// True when the scaled rates at the first start have reversed between two orbits of the branch. Between nearby points
-/// this happens where the orbits shrink to an equilibrium: the solutions of the equations continue through it, with the
-/// same orbits half a period later.
-bool has_reversed(BranchState& state, const Orbit& before, const Orbit& now);
+/// Finds the equilibrium to which the orbits of a branch shrink, so that the branch ends there. Where the section of
+/// the orbits passes through the equilibrium, the solutions of the equations continue through it, with the same orbits
+/// half a period later, and it is located from both sides. Otherwise the section or cut is touched before; then the
+/// Hopf point is computed from the equations of the equilibrium, and the orbits start where a cut contains it.
+class ShrinkingOrbit {
+public:
+    explicit ShrinkingOrbit(BranchState& state) : state_(&state) {}
 
-/// Locates the equilibrium to which the orbits of the last step shrink, from points at a distance on both sides: the
-/// equations are singular there, since an equilibrium is an orbit of any period.
-/// @return empty if the orbits do not shrink
-std::optional<SpecialPoint> locate_equilibrium(BranchState& state, const Orbit& before);
+    /// Makes a step. If it leads through an equilibrium, that is located, and the step is repeated to end just before
+    /// it, so that special points on the way are separated from the singularity.
+    /// @param make makes a step, returns false when it fails; @param from point of the branch from which it is made
+    /// @param rates at sections there
+    bool step(const std::function<bool()>& make, const BranchPoint& from, const std::vector<double>& rates);
+    /// The equilibrium in which the branch ends, if it lies ahead.
+    const std::optional<SpecialPoint>& end() const { return end_; }
+    /// True when a Hopf point may lie within the last step, which is then to be repeated after `turn`.
+    bool must_turn() const { return hopf_ && !end_; }
+    /// Moves the start of the orbit to where it is farthest from the Hopf point ahead, and sets the length of the next
+    /// step accordingly; at most once per point. @return false where that is impossible
+    bool turn(const BranchPoint& from);
+    /// After a step towards a Hopf point: if the orbits shrink to it, the branch ends there with the next step.
+    void update(const Orbit& before);
 
-/// Computes the Hopf point ahead on a branch of orbits without contacts, after a step in which a section or cut was
-/// touched, from the equations of the equilibrium, which do not involve sections.
-/// @param from start of that step; @param length of that step
-/// @return empty where no such equilibrium exists, or it lies much farther away than the length of the step
-std::optional<HopfPoint> hopf_ahead(BranchState& state, const ContinuationPoint& from, double length);
+private:
+    bool is_located(const HopfPoint& hopf) const;
 
-/// Returns an orbit of the current problem that rests at a Hopf point.
-Orbit at_rest_in(const Orbit& orbit, const HopfPoint& hopf, ParameterId parameter);
-
-/// Returns an orbit that starts where it is farthest from the Hopf point and ends at a cut whose plane contains that
-/// point, so that all smaller orbits cross it, and the direction in which the orbits shrink.
-/// @return empty where the orbit cannot be followed
-std::optional<UncutOrbit> begun_for_shrinking(BranchState& state, const Orbit& orbit, const HopfPoint& hopf);
-
-/// True when the parameter approaches that of the Hopf point with the square of the orbit's size.
-bool shrinks_to(const HopfPoint& hopf, ParameterId parameter, const Orbit& before, const Orbit& now);
-
-/// Returns the end of the branch at the Hopf point. @param arclength of the current point; @param distance from it
-std::optional<SpecialPoint> end_in(BranchState& state, const HopfPoint& hopf, double arclength, double distance);
-
-/// Returns the arclength between an orbit of the current problem and the orbit at rest.
-double distance_to(BranchState& state, const ContinuationPoint& from, const HopfPoint& hopf);
+    BranchState* state_;
+    std::optional<SpecialPoint> end_;
+    std::optional<HopfPoint> hopf_;       ///< Hopf point that may lie within the last attempted step
+    std::optional<HopfPoint> approached_; ///< Hopf point that the next step approaches
+    std::optional<double> tried_;         ///< arclength at which `turn` was tried last
+};
 
 } // namespace graze

@@ -12,27 +12,13 @@ namespace graze {
 
 namespace {
 
-/// Return the units of starts and durations, and those of the equations: for each piece that of its end condition, then
-/// those of the states.
-Eigen::VectorXd units_of_columns(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    return at.scales.head(index(equations.layout().start_of(at.pieces.size())));
-}
-
-Eigen::VectorXd units_of_rows(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    const auto n = index(equations.layout().states());
-    Eigen::VectorXd result(index(at.pieces.size()) * (n + 1));
-    for (std::size_t k = 0; k < at.pieces.size(); ++k)
-        result.segment(index(k) * (n + 1), n + 1) << at.pieces[k].condition_unit, at.scales.head(n);
-    return result;
-}
-
 using Multipliers = std::vector<std::complex<double>>;
+using Pair = std::pair<std::complex<double>, std::complex<double>>;
 
 /// Returns the pair, conjugate or both real, whose product and sum are nearest to the given ones. Products are compared
 /// by their ratio, since that of the kept pair is constant, sums by their difference.
-std::optional<std::pair<std::complex<double>, std::complex<double>>> pair_near(const Multipliers& all, double sum,
-                                                                               double product) {
-    std::optional<std::pair<std::complex<double>, std::complex<double>>> result;
+std::optional<Pair> pair_near(const Multipliers& all, double sum, double product) {
+    std::optional<Pair> result;
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < all.size(); ++i)
         for (std::size_t j = i + 1; j < all.size(); ++j) {
@@ -47,9 +33,9 @@ std::optional<std::pair<std::complex<double>, std::complex<double>>> pair_near(c
 }
 
 /// Returns the complex pair nearest to the unit circle, or two nearly equal real multipliers there if these are nearer.
-std::optional<std::pair<std::complex<double>, std::complex<double>>> pair_to_keep(const Multipliers& all) {
+std::optional<Pair> pair_to_keep(const Multipliers& all) {
     constexpr double meeting = 0.01; // distance from 1 or -1: double multipliers differ by the square root of round-off
-    std::optional<std::pair<std::complex<double>, std::complex<double>>> result;
+    std::optional<Pair> result;
     double nearest = std::numeric_limits<double>::infinity();
     const auto note = [&](std::complex<double> one, std::complex<double> other) {
         const double off = std::abs(std::log(std::abs(one * other)));
@@ -136,7 +122,8 @@ std::vector<Degeneracy> SingularCondition::degeneracies(const OrbitEquations& eq
     if (multiplier_ > 0)
         return {{PointType::cusp, along_}, {PointType::resonance_1, simplicity_, least_product}};
     const double nothing = std::numeric_limits<double>::quiet_NaN();
-    return {{PointType::generalised, flip_coefficient(equations, at, variation()).value_or(nothing)},
+    const auto form = flip_criticality(equations, at, variation());
+    return {{PointType::generalised, form && form->is_simple ? form->value() : nothing},
             {PointType::resonance_2, simplicity_, least_product}};
 }
 
@@ -144,8 +131,7 @@ TorusCondition::TorusCondition(const OrbitEquations& equations, const OrbitEvalu
     : MultiplierCondition(equations, at), sum_(sum), product_(product), kept_sum_(sum), kept_product_(product) {}
 
 std::unique_ptr<OrbitCondition> TorusCondition::of_pair(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    const Eigen::VectorXd ones = Eigen::VectorXd::Ones(index(equations.layout().start_of(at.pieces.size())));
-    const auto pair = pair_to_keep(CyclicMatrix(at.system, 1, ones, ones).multipliers());
+    const auto pair = pair_to_keep(multipliers_of(equations, at));
     if (!pair)
         return nullptr;
     const double sum = (pair->first + pair->second).real(), product = (pair->first * pair->second).real();
@@ -183,9 +169,9 @@ std::vector<Degeneracy> TorusCondition::degeneracies(const OrbitEquations& equat
     // the resonances at 1 and -1, where the two multipliers coincide.
     constexpr double digits = 1e-5, least_apart = 1e-6;
     const double apart = 1 - sum_ * sum_ / 4; // the square of the imaginary part
-    const auto form = apart > least_apart ? torus_form(equations, at, variation()) : std::nullopt;
+    const auto form = apart > least_apart ? torus_criticality(equations, at, variation()) : std::nullopt;
     const Degeneracy generalised =
-        form ? Degeneracy{PointType::generalised_torus, form->real(), digits * std::abs(*form) / apart}
+        form ? Degeneracy{PointType::generalised_torus, form->value(), digits * std::abs(form->form) / apart}
              : Degeneracy{PointType::generalised_torus, std::numeric_limits<double>::quiet_NaN()};
     return {{PointType::resonance_1, sum_ - 2},
             {PointType::resonance_2, sum_ + 2},

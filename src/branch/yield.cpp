@@ -15,6 +15,7 @@
 #include <functional>
 #include <map>
 #include <numbers>
+#include <numeric>
 
 namespace graze {
 
@@ -45,51 +46,60 @@ void require_share(double share, const char* what) {
 }
 
 /// Solves for all devices, on several threads.
-class DeviceSolver {
-public:
+struct DeviceSolver {
     /// Returns the changes of a device's parameters from the nominal ones; empty: the device cannot be made.
     using Changes = std::function<std::vector<double>(std::size_t device, const std::vector<double>& nominal)>;
 
-    DeviceSolver(const System& system, const SpecialPoint& point, ParameterId control, std::vector<ParameterId> others,
-                 std::size_t devices, Changes changes, const YieldSettings& settings, SolvedDevice solved = {})
-        : system_(&system), point_(&point), control_(control), others_(std::move(others)), devices_(devices),
-          changes_(std::move(changes)), settings_(&settings), solved_(std::move(solved)), nominal_(make_solver()) {}
+    const System& system;
+    const SpecialPoint& point;
+    ParameterId control;
+    std::vector<ParameterId> others;
+    std::size_t devices;
+    Changes changes;
+    const YieldSettings& settings;
+    SolvedDevice solved{};
+    LocatedValue nominal = make_solver();
+    std::vector<std::string> problems{};
+    std::atomic<std::size_t> next{0}, done{0};
+    Turns turns{};
+    std::function<bool()> interrupted = turns.asking(settings.interrupted);
+    std::function<void(std::size_t)> progress = turns.taking(settings.progress);
+    ThreadTeam team{};
 
-    LocatedValue& nominal() { return nominal_; }
-
-    void solve_all(Yield& result) {
-        result.devices.resize(devices_);
-        problems_.resize(devices_);
+    Yield solve_all() {
+        Yield result;
+        result.nominal = nominal.value();
+        result.devices.resize(devices);
+        problems.resize(devices);
         constexpr std::size_t enough = 32; // number of devices that justifies a thread
-        const std::size_t jobs =
-            std::clamp<std::size_t>(devices_ / enough, 1, static_cast<std::size_t>(settings_->jobs));
-        team_.run(jobs, [&](bool calling) {
+        const std::size_t jobs = std::clamp<std::size_t>(devices / enough, 1, static_cast<std::size_t>(settings.jobs));
+        team.run(jobs, [&](bool calling) {
             if (calling)
-                return work(nominal_, result, true);
+                return work(nominal, result, true);
             LocatedValue one = make_solver();
             work(one, result, false);
         });
-        result.interrupted = team_.is_stopped();
+        result.interrupted = team.is_stopped();
         std::map<std::string, std::size_t> counts;
-        for (const std::string& problem : problems_)
+        for (const std::string& problem : problems)
             if (!problem.empty())
                 ++counts[problem];
         result.problems.assign(counts.begin(), counts.end());
         std::stable_sort(result.problems.begin(), result.problems.end(),
                          [](const auto& a, const auto& b) { return a.second > b.second; });
+        return result;
     }
 
-private:
-    LocatedValue make_solver() const { return {*system_, *point_, control_, others_, settings_->solver}; }
+    LocatedValue make_solver() const { return {system, point, control, others, settings.solver}; }
 
     void work(LocatedValue& solver, Yield& result, bool reports_progress) {
-        for (std::size_t i; !team_.is_stopped() && (i = next_++) < devices_;) {
-            if (interrupted_ && interrupted_())
-                return team_.stop();
-            problems_[i] = solve(solver, i, result.devices[i]);
-            const std::size_t done = ++done_;
-            if (reports_progress && progress_)
-                progress_(done);
+        for (std::size_t i; !team.is_stopped() && (i = next++) < devices;) {
+            if (interrupted && interrupted())
+                return team.stop();
+            problems[i] = solve(solver, i, result.devices[i]);
+            const std::size_t finished = ++done;
+            if (reports_progress && progress)
+                progress(finished);
         }
     }
 
@@ -98,12 +108,12 @@ private:
         device.outcome = DeviceOutcome::failed;
         device.linear = solver.value();
         std::vector<double> values = solver.values();
-        const std::vector<double> changes = changes_(i, values);
-        if (changes.size() != values.size())
+        const std::vector<double> moves = changes(i, values);
+        if (moves.size() != values.size())
             return "the device cannot be made";
         for (std::size_t k = 0; k < values.size(); ++k) {
-            values[k] += changes[k];
-            device.linear += solver.derivatives()[k] * changes[k];
+            values[k] += moves[k];
+            device.linear += solver.derivatives()[k] * moves[k];
         }
         const LocatedSolution found = solver(values);
         if (found.found)
@@ -111,43 +121,20 @@ private:
         if (device.outcome != DeviceOutcome::found)
             return found.problem.empty() ? "the model would not follow the orbit" : found.problem;
         device.value = found.value;
-        if (solved_)
-            solved_(i, found);
+        if (solved)
+            solved(i, found);
         return {};
     }
-
-    const System* system_;
-    const SpecialPoint* point_;
-    ParameterId control_;
-    std::vector<ParameterId> others_;
-    std::size_t devices_;
-    Changes changes_;
-    const YieldSettings* settings_;
-    SolvedDevice solved_;
-    LocatedValue nominal_;
-    std::vector<std::string> problems_;
-    std::atomic<std::size_t> next_{0}, done_{0};
-    Turns turns_;
-    std::function<bool()> interrupted_ = turns_.asking(settings_->interrupted);
-    std::function<void(std::size_t)> progress_ = turns_.taking(settings_->progress);
-    ThreadTeam team_;
 };
 
 void count(Yield& result) {
-    for (const Device& device : result.devices)
-        switch (device.outcome) {
-        case DeviceOutcome::found:
-            ++result.found;
-            break;
-        case DeviceOutcome::inadmissible:
-            ++result.inadmissible;
-            break;
-        case DeviceOutcome::failed:
-            ++result.failed;
-            break;
-        case DeviceOutcome::not_made:
-            break;
-        }
+    const auto number_of = [&](DeviceOutcome outcome) {
+        return static_cast<std::size_t>(std::count_if(result.devices.begin(), result.devices.end(),
+                                                      [&](const Device& device) { return device.outcome == outcome; }));
+    };
+    result.found = number_of(DeviceOutcome::found);
+    result.inadmissible = number_of(DeviceOutcome::inadmissible);
+    result.failed = number_of(DeviceOutcome::failed);
     result.made = result.found + result.inadmissible + result.failed;
 }
 
@@ -269,20 +256,18 @@ void add_statistics(Yield& result, const YieldSettings& settings) {
 
 /// Returns the standard deviation of the linear predictions.
 double deviation_of_linear(const Yield& result) {
-    double sum = 0, squares = 0;
-    std::size_t n = 0;
-    for (const Device& device : result.devices)
-        if (device.outcome != DeviceOutcome::not_made) {
-            sum += device.linear - result.nominal;
-            ++n;
-        }
-    if (n < 2)
-        return 0;
-    const double mean = sum / static_cast<double>(n);
+    std::vector<double> differences;
     for (const Device& device : result.devices)
         if (device.outcome != DeviceOutcome::not_made)
-            squares += std::pow(device.linear - result.nominal - mean, 2);
-    return std::sqrt(squares / static_cast<double>(n - 1));
+            differences.push_back(device.linear - result.nominal);
+    const auto n = static_cast<double>(differences.size());
+    if (n < 2)
+        return 0;
+    const double mean = std::accumulate(differences.begin(), differences.end(), 0.0) / n;
+    double squares = 0;
+    for (const double one : differences)
+        squares += std::pow(one - mean, 2);
+    return std::sqrt(squares / (n - 1));
 }
 
 } // namespace
@@ -325,11 +310,9 @@ Yield yield_of(const System& system, const SpecialPoint& point, ParameterId cont
             changes[k] = random_deviation(settings.tolerances[k], settings.seed, device, k);
         return changes;
     };
-    DeviceSolver solver(system, point, control, others, settings.devices, drawn_changes, settings);
-    Yield result;
-    result.nominal = solver.nominal().value();
-    solver.solve_all(result);
-    set_contributions(result, solver.nominal(), settings.tolerances);
+    DeviceSolver solver{system, point, control, others, settings.devices, drawn_changes, settings};
+    Yield result = solver.solve_all();
+    set_contributions(result, solver.nominal, settings.tolerances);
     add_statistics(result, settings);
     return result;
 }
@@ -354,11 +337,9 @@ Yield yield_of(const System& system, const SpecialPoint& point, ParameterId cont
             changes[k] -= nominal[k];
         return changes;
     };
-    DeviceSolver solver(system, point, control, devices.parameters, devices.values.size(), changes_of, settings,
-                        std::move(solved));
-    Yield result;
-    result.nominal = solver.nominal().value();
-    solver.solve_all(result);
+    DeviceSolver solver{system,     point,    control,          devices.parameters, devices.values.size(),
+                        changes_of, settings, std::move(solved)};
+    Yield result = solver.solve_all();
     result.linear_deviation = deviation_of_linear(result);
     add_statistics(result, settings);
     return result;

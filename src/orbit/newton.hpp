@@ -7,6 +7,8 @@ namespace graze {
 
 /// Returns the simulation options for integrating orbits. @param tolerance raised to smallest_tolerance if below it
 SimulationOptions integration(double tolerance);
+/// @throws InputError unless Newton's method can reach the accuracy: 1e-15 .. 1e-2
+void require_accuracy(double accuracy);
 /// Solves equations without free parameters by damped Newton's method.
 /// @param at set to the evaluation at the last iterate; its `unknowns` are empty if the equations are undefined there
 OrbitOutcome solve_equations(OrbitEquations& equations, Eigen::VectorXd& unknowns, const OrbitOptions& options,

@@ -79,12 +79,16 @@ SimulationOptions integration(double tolerance) {
     return options;
 }
 
+void require_accuracy(double accuracy) {
+    if (!(accuracy >= 1e-15 && accuracy <= 1e-2))
+        throw InputError(fmt::format("the accuracy {} is out of range", accuracy), "choose from 1e-15 to 1e-2");
+}
+
 void OrbitOptions::validate() const {
     if (!(tolerance >= smallest_tolerance && tolerance <= largest_tolerance))
         throw InputError(fmt::format("the tolerance {} is out of range", tolerance),
                          fmt::format("choose from {} to {}", smallest_tolerance, largest_tolerance));
-    if (!(accuracy >= 1e-15 && accuracy <= 1e-2))
-        throw InputError(fmt::format("the accuracy {} is out of range", accuracy), "choose from 1e-15 to 1e-2");
+    require_accuracy(accuracy);
     if (iterations == 0)
         throw InputError("no iterations are allowed", "allow at least one");
 }

@@ -171,7 +171,8 @@ std::vector<Stretch> stretches_of(const std::vector<DrawnPoint>& points) {
 /// these, points from which other branches start come first. Labels of inadmissible orbits come last.
 int rank_of(const DrawnPoint& point) {
     const PointKind& kind = kind_of(point.type);
-    return (point.look == Look::unphysical ? 4 : 0) + (kind.changes || kind.limits ? 0 : 2) + (kind.leads_on ? 0 : 1);
+    return (point.look == Look::unphysical ? 4 : 0) + (kind.changes || kind.limits ? 0 : 2) +
+           (kind.has_bifurcating_branch ? 0 : 1);
 }
 
 /// True for points that are marked: all whose type has a symbol, unless the picture chooses types or labels.

@@ -181,7 +181,7 @@ std::vector<BranchPart> parts_from_orbit(const StudyRun& run, const System& syst
                                 parent.branch().settings.parameter == run.branch().settings.parameter;
     std::string onto = start.onto;
     if (onto.empty())
-        onto = kind_of(point.type).leads_on && same_parameter ? "other" : "same";
+        onto = kind_of(point.type).has_bifurcating_branch && same_parameter ? "other" : "same";
     if (onto == "twin")
         return both_directions(
             run, at_place(start.place, run, [&] { return symmetric_image(run, system, point.solution.orbit); }));

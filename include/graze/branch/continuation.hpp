@@ -41,6 +41,12 @@ public:
     virtual void accept(std::span<const double>) {}
     /// Removes whole periods from the difference of two solutions where unknowns are angles.
     virtual void reduce(std::span<double>) const {}
+
+    /// Returns the inner product of two directions in scaled and weighted unknowns.
+    double product(std::span<const double> a, std::span<const double> b) const;
+    double length_of(std::span<const double> direction) const;
+    /// Returns the row whose product with a vector is the inner product with a direction.
+    std::vector<double> row_of(std::span<const double> direction) const;
 };
 
 /// Equations given by functions and solved with dense matrices, for problems of moderate size.
@@ -129,8 +135,8 @@ public:
     bool between(double fraction, ContinuationPoint& result);
 
 private:
-    void require_point(std::span<const double> u) const;
-    double product(std::span<const double> a, std::span<const double> b) const;
+    ContinuationPoint point_at(std::span<const double> u) const;
+    void normalise(std::vector<double>& tangent) const;
     bool correct(std::vector<double>& u, std::span<const double> row, double allowed, std::size_t& iterations);
     std::vector<double> predict(double length) const;
     bool newton(std::vector<double>& u, std::span<const double> row, double allowed, std::size_t& iterations);
@@ -144,7 +150,6 @@ private:
     bool is_stationary(ContinuationPoint point, std::size_t unknown);
     bool start_across(std::span<const double> u, std::size_t unknown, int direction);
     bool closes();
-    void weigh(std::span<const double> direction, std::vector<double>& row) const;
 
     std::shared_ptr<ContinuationProblem> problem_;
     ContinuationOptions options_;

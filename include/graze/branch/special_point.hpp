@@ -54,10 +54,10 @@ struct PointKind {
     std::string_view name;       ///< name in words, such as "fold"
     bool changes = false;        ///< orbits beyond the point differ in stability, number or contacts
     bool limits = false;         ///< an event appears or disappears: the branch may become inadmissible beyond it
-    bool leads_on = false;       ///< another branch leaves, which `branches_at` computes
-    bool may_stop = false;       ///< a branch may be told to end there
-    bool may_be_kept = false;    ///< a curve of such points can be followed: BranchSettings::kept
-    int mark = 0;                ///< gnuplot's point type for plots; 0: not plotted
+    bool has_bifurcating_branch = false; ///< another branch leaves, which `branches_at` computes
+    bool may_stop = false;               ///< a branch may be told to end there
+    bool may_be_kept = false;            ///< a curve of such points can be followed: BranchSettings::kept
+    int mark = 0;                        ///< gnuplot's point type for plots; 0: not plotted
 };
 
 /// Returns all kinds, in the order of the types.

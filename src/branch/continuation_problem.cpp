@@ -2,6 +2,7 @@
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 #include "graze/branch/continuation.hpp"
+#include "orbit/eigen_index.hpp"
 
 #include <Eigen/Core>
 #include <fmt/format.h>
@@ -18,11 +19,27 @@ constexpr double difference_step = 6e-6;
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-bool all_finite(std::span<const double> values) {
-    return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+} // namespace
+
+double ContinuationProblem::product(std::span<const double> a, std::span<const double> b) const {
+    const auto scales = this->scales(), weights = this->weights();
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        sum += a[i] / scales[i] * (b[i] / scales[i]) * (weights.empty() ? 1 : weights[i]);
+    return sum;
 }
 
-} // namespace
+double ContinuationProblem::length_of(std::span<const double> direction) const {
+    return std::sqrt(product(direction, direction));
+}
+
+std::vector<double> ContinuationProblem::row_of(std::span<const double> direction) const {
+    const auto scales = this->scales(), weights = this->weights();
+    std::vector<double> row(direction.size());
+    for (std::size_t i = 0; i < direction.size(); ++i)
+        row[i] = direction[i] / (scales[i] * scales[i]) * (weights.empty() ? 1 : weights[i]);
+    return row;
+}
 
 DenseProblem::DenseProblem(std::size_t unknowns, Map residuals, Map jacobian, std::vector<double> scales)
     : unknowns_(unknowns), residuals_(std::move(residuals)), jacobian_(std::move(jacobian)),
@@ -31,8 +48,7 @@ DenseProblem::DenseProblem(std::size_t unknowns, Map residuals, Map jacobian, st
         throw InputError("a continuation problem needs unknowns and residuals", "give at least one unknown");
     if (scales_.empty())
         scales_.assign(unknowns_, 1);
-    if (scales_.size() != unknowns_ ||
-        !std::all_of(scales_.begin(), scales_.end(), [](double x) { return x > 0 && std::isfinite(x); }))
+    if (scales_.size() != unknowns_ || !vector_of(scales_).allFinite() || !(vector_of(scales_).minCoeff() > 0))
         throw InputError("the scales of a continuation problem do not fit", "give a positive one for each unknown");
     values_.resize(unknowns_ - 1);
     matrix_.resize((unknowns_ - 1) * unknowns_);
@@ -41,10 +57,8 @@ DenseProblem::DenseProblem(std::size_t unknowns, Map residuals, Map jacobian, st
 bool DenseProblem::evaluate(std::span<const double> u) {
     require_size(u.size(), unknowns_, "unknowns");
     evaluated_ = true;
-    if (!residuals_(u, values_) || !all_finite(values_))
-        return false;
-    const bool differentiated = jacobian_ ? jacobian_(u, matrix_) : differences(u);
-    return differentiated && all_finite(matrix_);
+    return residuals_(u, values_) && vector_of(values_).allFinite() &&
+           (jacobian_ ? jacobian_(u, matrix_) : differences(u)) && vector_of(matrix_).allFinite();
 }
 
 bool DenseProblem::differences(std::span<const double> u) {
@@ -71,23 +85,22 @@ bool DenseProblem::solve(std::span<const double> row, double right, bool homogen
         throw OrderError("a problem has to be evaluated before it can be solved");
     require_size(row.size(), unknowns_, "numbers of a row");
     require_size(step.size(), unknowns_, "numbers of a step");
-    const auto n = static_cast<Eigen::Index>(unknowns_);
-    const Eigen::Map<const Eigen::VectorXd> scales(scales_.data(), n);
+    const Eigen::Index n = index(unknowns_);
     Eigen::MatrixXd matrix(n, n);
     matrix.topRows(n - 1) = Eigen::Map<const RowMajor>(matrix_.data(), n - 1, n);
-    matrix.row(n - 1) = Eigen::Map<const Eigen::RowVectorXd>(row.data(), n);
-    matrix *= scales.asDiagonal();
+    matrix.row(n - 1) = vector_of(row).transpose();
+    matrix *= vector_of(scales_).asDiagonal();
     Eigen::VectorXd values = Eigen::VectorXd::Zero(n);
     if (!homogeneous)
-        values.head(n - 1) = -Eigen::Map<const Eigen::VectorXd>(values_.data(), n - 1);
+        values.head(n - 1) = -vector_of(values_);
     values[n - 1] = right;
     const FullLU<double> lu(matrix);
     if (determinant)
         *determinant = lu.determinant();
     if (!lu.is_invertible())
         return false;
-    Eigen::Map<Eigen::VectorXd>(step.data(), n) = lu.solve(values).cwiseProduct(scales);
-    return all_finite(step);
+    entries_of(step) = lu.solve(values).cwiseProduct(vector_of(scales_));
+    return entries_of(step).allFinite();
 }
 
 } // namespace graze

@@ -5,7 +5,7 @@
 namespace graze {
 
 /// The start of a curve: an orbit, and settings whose kept point refers to this orbit.
-struct CurveBegin {
+struct CurveStart {
     Orbit orbit;
     BranchSettings settings;
 };
@@ -15,6 +15,6 @@ struct CurveBegin {
 /// segment, because the end of a segment of zero duration is not a regular equation. An orbit without contacts whose
 /// start coincides with a touch gets another start.
 /// @return the arguments where no change is needed
-CurveBegin begun_for_curve(const System& system, const Orbit& orbit, const BranchSettings& settings);
+CurveStart start_of_curve(const System& system, const Orbit& orbit, const BranchSettings& settings);
 
 } // namespace graze

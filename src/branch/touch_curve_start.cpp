@@ -1,5 +1,6 @@
-#include "branch/curve_begin.hpp"
+#include "branch/touch_curve_start.hpp"
 
+#include "branch/inserted_contact.hpp"
 #include "branch/point_kind.hpp"
 #include "orbit/newton.hpp"
 #include "orbit/orbit_flow.hpp"
@@ -63,15 +64,8 @@ bool join_across_contact(const System& system, Orbit& orbit, SpecialPoint& kept)
     kept.event = system.model().transitions[orbit.signature[before].index].event;
     kept.time = orbit.durations[before];
     kept.at_end = false;
-    Orbit joined = orbit;
-    joined.signature.clear();
-    joined.starts.clear();
-    joined.durations.clear();
-    const auto add = [&](std::size_t s) {
-        joined.signature.push_back(orbit.signature[s]);
-        joined.starts.push_back(orbit.starts[s]);
-        joined.durations.push_back(orbit.durations[s]);
-    };
+    Orbit joined{{}, orbit.parameters, {}, {}, orbit.symmetry};
+    const auto add = [&](std::size_t s) { append(joined, orbit.signature[s], orbit.starts[s], orbit.durations[s]); };
     // Copy the other segments, starting after the merged arcs or, where it stays first, with the first segment.
     const std::size_t others = after == before ? 0 : count - way - 1;
     for (std::size_t i = 0; wraps && i < others; ++i)
@@ -147,19 +141,12 @@ bool move_start_off_touch(const System& system, const BranchSettings& settings, 
     return true;
 }
 
-/// True when monitors refer to starts or ends of segments.
-bool needs_segments(const BranchSettings& settings) {
-    return std::any_of(settings.monitors.begin(), settings.monitors.end(), [](const Monitor& monitor) {
-        return !monitor.segment.empty() || monitor.kind == Monitor::Kind::value || monitor.kind == Monitor::Kind::start;
-    });
-}
-
 } // namespace
 
-CurveBegin begun_for_curve(const System& system, const Orbit& orbit, const BranchSettings& settings) {
-    CurveBegin result{orbit, settings};
+CurveStart start_of_curve(const System& system, const Orbit& orbit, const BranchSettings& settings) {
+    CurveStart result{orbit, settings};
     if (!settings.kept || settings.kept->type != PointType::grazing || settings.kept->segment >= orbit.segments() ||
-        orbit.durations.size() != orbit.segments() || needs_segments(settings))
+        orbit.durations.size() != orbit.segments() || refer_to_segments(settings.monitors))
         return result;
     SpecialPoint& kept = *result.settings.kept;
     if (kept.at_end && !join_across_contact(system, result.orbit, kept))
