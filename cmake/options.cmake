@@ -70,8 +70,11 @@ target_include_directories(
     $<TARGET_PROPERTY:tomlplusplus::tomlplusplus,INTERFACE_INCLUDE_DIRECTORIES>
 )
 
-# Options of tests, and of folders that do not compute for long: they are compiled more often than they are run.
+# Folders that do not compute for long, and tests, which compute in the library: their optimisation would take longer
+# than it saves.
 set(GRAZE_COMPILED_FAST $<$<CONFIG:Release>:-O1>)
+set(GRAZE_TESTS_COMPILED $<$<CONFIG:Release>:-O0>)
 if(GRAZE_SANITIZERS)
     set(GRAZE_COMPILED_FAST -O0)
+    set(GRAZE_TESTS_COMPILED -O0)
 endif()

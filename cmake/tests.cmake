@@ -21,7 +21,7 @@ if(GRAZE_PRECOMPILED_HEADERS)
     foreach(folder IN LISTS GRAZE_FOLDERS)
         target_link_libraries(graze_test_prefix PRIVATE ${GRAZE_NEEDS_${folder}})
     endforeach()
-    target_compile_options(graze_test_prefix PRIVATE ${GRAZE_COMPILED_FAST})
+    target_compile_options(graze_test_prefix PRIVATE ${GRAZE_TESTS_COMPILED})
     target_precompile_headers(
         graze_test_prefix PRIVATE <gtest/gtest.h> <gmock/gmock.h> <fmt/format.h> <algorithm> <functional>
     )
@@ -70,7 +70,7 @@ foreach(folder IN LISTS test_folders)
     target_link_libraries(test_${folder} PRIVATE graze_places)
     # Small batches: a test is changed, compiled and run again more often than other sources.
     compile_together(test_${folder} 8 ${sources})
-    target_compile_options(test_${folder} PRIVATE ${GRAZE_COMPILED_FAST})
+    target_compile_options(test_${folder} PRIVATE ${GRAZE_TESTS_COMPILED})
     gtest_discover_tests(
         test_${folder} TEST_PREFIX ${folder}. TEST_FILTER "-*Slow.*" DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES
         PROPERTIES TIMEOUT 600

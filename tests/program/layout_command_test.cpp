@@ -112,7 +112,9 @@ TEST_F(LayoutCommand, WritesTheDeviceAsVerilogA) {
 
 /// The shipped design with few points and devices: designs a device, draws it, and computes where the drawn device
 /// trips.
-TEST_F(LayoutCommand, DrawsADesignedDeviceAndComparesItSlow) {
+class LayoutCommandSlow : public LayoutCommand {};
+
+TEST_F(LayoutCommandSlow, DrawsADesignedDeviceAndComparesIt) {
     std::string text = run_graze("design mems-switch-device --show").out;
     const auto change = [&](const std::string& from, const std::string& to) {
         ASSERT_NE(text.find(from), std::string::npos) << from;

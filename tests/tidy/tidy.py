@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Runs clang-tidy on all sources, several at once: what they include is parsed once and not for each.
+"""Runs clang-tidy on all sources, several at once: what they include is parsed once and not for each. Also compiles every
+public header by itself.
 
 usage: tidy.py BUILD OUTPUT JOBS [OPTION...]
 
@@ -68,6 +69,13 @@ def look_at(batch, build, output, options):
     return done.stdout + (done.stderr if done.returncode else ""), done.returncode == 0
 
 
+def compile_header(header):
+    """What clang says of a header that is compiled by itself, with nothing but the public headers, and whether it compiles."""
+    words = ["clang++", "-std=c++20", "-fsyntax-only", "-Wno-pragma-once-outside-header", f"-I{ROOT}/include", str(header)]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    return done.stderr, done.returncode == 0
+
+
 def main(build, output, jobs, options):
     commands = json.loads((build / "compile_commands.json").read_text())
     own = {}
@@ -85,9 +93,11 @@ def main(build, output, jobs, options):
     # Sources of a folder include the same headers.
     for _, files in itertools.groupby(own, lambda file: pathlib.Path(file).parent):
         batches += [[own[file] for file in batch] for batch in batches_of(list(files), MOST)]
+    headers = sorted((ROOT / "include").rglob("*.hpp"))
     clean = True
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        for text, good in pool.map(lambda batch: look_at(batch, build, output, options), batches):
+        looks = pool.map(lambda batch: look_at(batch, build, output, options), batches)
+        for text, good in itertools.chain(looks, pool.map(compile_header, headers)):
             print(text, end="", flush=True)
             clean = clean and good
     if not batches:
