@@ -22,8 +22,9 @@ if(GRAZE_PRECOMPILED_HEADERS)
         target_link_libraries(graze_test_prefix PRIVATE ${GRAZE_NEEDS_${folder}})
     endforeach()
     target_compile_options(graze_test_prefix PRIVATE ${GRAZE_TESTS_COMPILED})
+    # Eigen comes before fmt, which has g++ optimise its functions: g++ 12 would then parse intrinsics as if it optimised.
     target_precompile_headers(
-        graze_test_prefix PRIVATE <gtest/gtest.h> <gmock/gmock.h> <fmt/format.h> <algorithm> <functional>
+        graze_test_prefix PRIVATE <Eigen/Core> <gtest/gtest.h> <gmock/gmock.h> <fmt/format.h> <algorithm> <functional>
     )
 endif()
 

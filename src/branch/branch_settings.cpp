@@ -1,3 +1,4 @@
+#include "base/enumerator_name.hpp"
 #include "branch/point_kind.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
@@ -98,7 +99,7 @@ std::string_view name_of(BranchOutcome outcome) {
                                           "undefined beyond",
                                           "too much work",
                                           "no start"};
-    return names[static_cast<std::size_t>(outcome)];
+    return enumerator_name(names, outcome, "");
 }
 
 } // namespace graze

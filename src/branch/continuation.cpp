@@ -1,5 +1,6 @@
 #include "graze/branch/continuation.hpp"
 
+#include "base/enumerator_name.hpp"
 #include "branch/longest_step.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
@@ -60,7 +61,7 @@ void ContinuationOptions::validate() const {
 
 std::string_view name_of(ContinuationOutcome outcome) {
     constexpr std::string_view names[] = {"going", "closed", "no convergence", "undefined", "singular"};
-    return names[static_cast<std::size_t>(outcome)];
+    return enumerator_name(names, outcome, "");
 }
 
 Continuation::Continuation(std::shared_ptr<ContinuationProblem> problem, const ContinuationOptions& options)

@@ -17,8 +17,6 @@ namespace {
 /// Cube root of the unit round-off, the optimal relative step of central differences.
 constexpr double difference_step = 6e-6;
 
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
 } // namespace
 
 double ContinuationProblem::product(std::span<const double> a, std::span<const double> b) const {

@@ -3,7 +3,6 @@
 #include "branch/point_kind.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
-#include "grazing/local_map.hpp"
 #include "grazing/return_map.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/eigen_index.hpp"

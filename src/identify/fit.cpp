@@ -1,5 +1,6 @@
 #include "graze/identify/fit.hpp"
 
+#include "base/enumerator_name.hpp"
 #include "base/median.hpp"
 #include "graze/base/input_error.hpp"
 #include "identify/fit_callbacks.hpp"
@@ -408,7 +409,7 @@ const std::vector<std::string>& names_of_losses() {
 std::string_view name_of(FitEnding ending) {
     static constexpr std::string_view names[]{"converged", "unfinished",   "interrupted", "apart",
                                               "broken",    "undetermined", "misfit"};
-    return names[static_cast<std::size_t>(ending)];
+    return enumerator_name(names, ending, "");
 }
 
 Fit fit_model(const System& system, const FitTask& task, const FitSettings& settings) {

@@ -138,8 +138,8 @@ Figure noise_figure(const LossPoint& point, const std::vector<double>& levels, c
     using Style = FigureSeries::Style;
     FigurePanel panel = trip_panel("level of noise in " + point.name, point.unit, "probability of a trip", "");
     FigureSeries shares{fmt::format("within {} cycles", settings.cycles), Style::circles, 1},
-        low{fmt::format("limits of confidence, {:g} %", 100 * settings.confidence), Style::line},
-        high{"", Style::line}, beyond{"beyond the " + std::string(point.kind()) + " at any time", Style::dotted, 2};
+        low{fmt::format("limits of confidence, {:g} %", 100 * settings.confidence), Style::line}, high{"", Style::line},
+        beyond{"beyond the " + std::string(point.kind()) + " at any time", Style::dotted, 2};
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (levels[i] == 0) // has no place on the axis
             continue;

@@ -148,4 +148,31 @@ TEST(DampedOscillationSlow, IntervalsCoverTheTruthForCoarselyRoundedReadings) {
     EXPECT_GE(dampings, 270U);
 }
 
+// Amplitude 0.35 sampled every 0.2 ms: with noise of 0.005 peaks alone gave 0.0175 instead of 0.017.
+TEST(DampedOscillationSlow, IntervalsCoverTheTruthAtAnyNoise) {
+    constexpr double w0 = 96.4;
+    for (const double zeta : {0.005, 0.017, 0.08})
+        for (const double sigma : {0.0005, 0.005, 0.02}) {
+            std::size_t dampings = 0, frequencies = 0, doubted = 0;
+            constexpr std::size_t tries = 60;
+            for (std::uint64_t seed = 0; seed < tries; ++seed) {
+                Noise noise(1000 + seed);
+                const Wave wave = [&](double t) {
+                    return 0.35 * damped_cosine(w0, zeta, t, -std::numbers::pi / 2) + sigma * noise.normal();
+                };
+                std::vector<DecayWave> waves;
+                for (int release = 0; release < 2; ++release) {
+                    waves.push_back(peaks_in(sampled(5000, 4000, {wave})).wave);
+                    doubted += waves.back().residual_test.is_noise() ? 0 : 1;
+                }
+                const DampedOscillation found = damped_oscillation(waves);
+                dampings += covers(found.damping, zeta) ? 1 : 0;
+                frequencies += covers(found.frequency, w0) ? 1 : 0;
+            }
+            EXPECT_GE(dampings, 51U) << zeta << " " << sigma; // 57 +- 1.7
+            EXPECT_GE(frequencies, 51U) << zeta << " " << sigma;
+            EXPECT_LE(doubted, 1U) << zeta << " " << sigma;
+        }
+}
+
 } // namespace graze::testing

@@ -173,6 +173,16 @@ inline constexpr std::string_view accepted[] = {
     "rows_number_of_a_text",
 };
 
+/// Calls in another order than documented, which must be refused as such.
+inline constexpr std::string_view out_of_order[] = {
+    "run_before_start",
+    "extend_before_start",
+    "propose_before_start",
+    "mode_flow_before_parameters",
+    "second_order_before_parameters",
+    "tangent_steps_carry_before_a_step",
+};
+
 /// Uses that are not run, because their behaviour is undefined.
 inline constexpr std::string_view unchecked[] = {
     // A moved-from model may only be assigned to or destroyed.
@@ -356,6 +366,8 @@ inline void expect_refusal(const WrongUse& wrong) {
         const Error* const error = dynamic_cast<const Error*>(&refusal);
         EXPECT_TRUE(error && error->kind() != ErrorKind::internal)
             << "FOREIGN " << wrong.name << ": " << typeid(refusal).name() << ": " << what;
+        EXPECT_TRUE(!is_among(out_of_order, wrong.name) || (error && error->kind() == ErrorKind::order))
+            << wrong.name << ": " << what;
         EXPECT_FALSE(what.empty());
         for (const std::string foreign : {"vector::", "basic_string", "bad_", "map::at", "array::at", "_M_", "std::"})
             EXPECT_EQ(what.find(foreign), std::string::npos) << "FOREIGN " << wrong.name << ": " << what;

@@ -198,6 +198,8 @@ TEST_F(RecordCommand, MistakesAreOneLineWithARemedy) {
         {run + " --what impact", "did you mean 'impacts'?"},
         {run + " --what impacts --channel v --phase 0.5", "--phase has no effect beside --what impacts"},
         {run + " --scale v", "write NAME=FACTOR"},
+        {run + " --scale y=2 --what samples", "--scale: the record has no channel 'y'"},
+        {run + " --derivative y --write " + (folder / "w.csv"), "--derivative: the record has no channel 'y'"},
         {run + " --scale v=2x", "'2x' is no number"},
         {run + " --pass 1e9", "cannot be resolved"},
         {run + " --what samples --from 2 --to 1", "give the earlier one first"},

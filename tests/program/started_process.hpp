@@ -50,8 +50,9 @@ public:
         if (process_ > 0)
             kill(process_, number);
     }
-    /// Waits for its end. @return the exit status, or the negative number of the signal that ended it
-    int wait() { return ended_by(0).value_or(0); }
+    /// Waits for its end. @return the exit status, or the negative number of the signal that ended it; 1000 where there
+    /// is no process to wait for
+    int wait() { return ended_by(0).value_or(1000); }
     /// The same if it has ended; none while it runs.
     std::optional<int> ended() { return ended_by(WNOHANG); }
     std::string printed() const { return contents(log_); }

@@ -30,12 +30,13 @@ inline RunRecord run_of(const Model& model, const std::string& name, const std::
 }
 
 /// Numbers of the minima and end values of an orbit.
-inline std::vector<std::tuple<std::size_t, std::size_t, double, double, double>> details_of(const SpecialPoint& point) {
-    std::vector<std::tuple<std::size_t, std::size_t, double, double, double>> rows;
+inline std::vector<std::tuple<bool, std::size_t, std::size_t, double, double, double>>
+details_of(const SpecialPoint& point) {
+    std::vector<std::tuple<bool, std::size_t, std::size_t, double, double, double>> rows;
     for (const OrbitMinimum& one : point.solution.certificate.minima)
-        rows.emplace_back(one.segment, one.event, one.time, one.value, one.size);
+        rows.emplace_back(true, one.segment, one.event, one.time, one.value, one.size);
     for (const EndValue& one : point.solution.certificate.end_values)
-        rows.emplace_back(one.segment, one.event, one.value, one.rate, 0);
+        rows.emplace_back(false, one.segment, one.event, one.value, one.rate, 0);
     return rows;
 }
 
