@@ -14,7 +14,7 @@ struct EndingWords {
     std::string_view name, remedy;
 };
 
-/// In the order of AcquisitionEnding.
+/// In the order of AcquisitionEnding; the last are for numbers that are none of them.
 constexpr EndingWords words[]{
     {"complete", "call it again to go on"},
     {"interrupted", "call it again to go on"},
@@ -28,16 +28,21 @@ constexpr EndingWords words[]{
     {"clipped", "see what limits it, its load or somebody at its knobs, then call it again to go on; or give a larger "
                 "tolerance under [generator]"},
     {"samples", "see what it is doing, and whether rate, timeout and patience suit it, then call it again to go on"},
+    {"", ""},
 };
+
+const EndingWords& word_of(AcquisitionEnding ending) {
+    return words[std::min(static_cast<std::size_t>(ending), std::size(words) - 1)];
+}
 
 } // namespace
 
 std::string_view name_of(AcquisitionEnding ending) {
-    return words[static_cast<std::size_t>(ending)].name;
+    return word_of(ending).name;
 }
 
 std::string remedy_of(AcquisitionEnding ending) {
-    return std::string(words[static_cast<std::size_t>(ending)].remedy);
+    return std::string(word_of(ending).remedy);
 }
 
 std::string awaited_line(InstrumentLine& line, double timeout, const std::function<bool()>& interrupted,

@@ -60,9 +60,10 @@ public:
                 continue;
             fail(AcquisitionEnding::no_answer, "{} accepts no data", name_);
         }
-        if (error)
+        if (error) {
             failure_ = fmt::format("{} is closed ({})", name_, error.message());
-        require_open();
+            require_open();
+        }
     }
     std::optional<std::string> receive(double wait) override {
         const auto end = std::chrono::steady_clock::now() + duration_of(wait);

@@ -128,7 +128,7 @@ void put_on_bounds(const BranchSettings& settings, Orbit& orbit) {
     const auto put = [&](ParameterId parameter, const std::optional<double>& least,
                          const std::optional<double>& greatest) {
         double& value = orbit.parameters[parameter.place()];
-        value = std::min(std::max(value, least.value_or(value)), greatest.value_or(value));
+        value = std::min(std::max(value, least.value_or(-infinity)), greatest.value_or(infinity));
     };
     put(settings.parameter, settings.least, settings.greatest);
     for (const FreeBounds& bounds : settings.free_bounds)

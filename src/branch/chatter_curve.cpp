@@ -89,7 +89,8 @@ private:
         return step > 0 ? step : share;
     }
     double within(std::size_t which, double value) const {
-        return std::min(std::max(value, bounds_[which].least.value_or(value)), bounds_[which].greatest.value_or(value));
+        const FreeBounds& bounds = bounds_[which];
+        return std::min(std::max(value, bounds.least.value_or(-infinity)), bounds.greatest.value_or(infinity));
     }
     std::optional<Reached> hold(std::size_t held, const Orbit& here, const Place& ahead, const Orbit* before,
                                 double length_before, std::string& why) const {

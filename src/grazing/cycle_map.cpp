@@ -288,11 +288,11 @@ std::vector<double> CycleMap::image(std::span<const double> state, double cleara
     return list_of(after);
 }
 
-bool CycleMap::is_at_touch(double since, double recurs) const {
+bool CycleMap::is_at_touch(double time, double period) const {
     const auto distance = [&](const std::vector<double>& times) {
         double least = infinity;
         for (const double one : times)
-            least = std::min(least, std::abs(without_turns(since - one, recurs)));
+            least = std::min(least, std::abs(without_turns(time - one, period)));
         return least;
     };
     return contact_times.empty() || distance(touch_times) < distance(contact_times);

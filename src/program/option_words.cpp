@@ -10,7 +10,7 @@ namespace graze {
 
 namespace {
 
-/// What the library says, and what a user of the command line is told. Of several the first that is there.
+/// What the library says, and what a user of the command line is told. Of a list the first that is there is replaced.
 struct Words {
     std::string_view said, told;
 };
@@ -56,7 +56,7 @@ constexpr Words remedies[] = {
     {"use skip N, or time T", "use --skip N, or --time T"},
     {"name a level, until EXPR=LEVEL, or until end", "name a level, --until EXPR=LEVEL, or --until end"},
     {"or say where it begins: at VALUE", "or say where it begins: --at VALUE"},
-    {"give gap and stiffness", "give --gap and --stiffness"},
+    {"give gap and stiffness, in the units of the record", "give --gap and --stiffness, in the units of the record"},
     {"give beta1, beta2 and gap", "give --beta1, --beta2 and --gap"},
     {"choose another reference or level", "choose another --reference or --level"},
     {"name the channel of the input by reference", "name the channel of the input by --reference"},
@@ -94,7 +94,7 @@ constexpr std::pair<const char*, const char*> patterns[] = {
      "run '$1' has no orbit number $2; graze points --run $1 --all lists its $3 orbits"},
     {R"(run '(\S+)' is of kind (.*); see its points$)",
      "run '$1' is of kind $2; see its results by graze export --run $1"},
-    {R"re(convert it in the run that has the record: scale = \{ (\S+) = \{ factor = (\S+), unit = "(.*)" \} \}$)re",
+    {R"re(convert it in the run that has the record: scale = \{ (.+) = \{ factor = (\S+), unit = "(.*)" \} \}$)re",
      "convert it by --scale $1=$2:$3"},
     {R"(give an approximate one by frequency$)", "give an approximate one by --frequency"},
     {R"(if the comment in line (\d+) does, name that line$)", "if the comment in line $1 does, by --names-line $1"},
@@ -102,9 +102,11 @@ constexpr std::pair<const char*, const char*> patterns[] = {
 
 } // namespace
 
-std::string in_options(const std::string& message) {
+std::string in_options(const std::string& message, std::span<const std::string> arguments) {
     std::string text = message;
-    if (std::ranges::find(named_places, std::string_view(text).substr(0, text.find(": "))) != std::end(named_places))
+    const std::string place = text.substr(0, text.find(": "));
+    // Where an argument is so called, the place may be that file.
+    if (std::ranges::count(named_places, place) > 0 && std::ranges::count(arguments, place) == 0)
         text.insert(0, "--");
     for (const Words& beginning : beginnings)
         if (text.starts_with(beginning.said)) {

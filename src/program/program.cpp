@@ -43,11 +43,11 @@ int dispatch(std::span<const std::string> words, const Console& console) {
 }
 
 /// Prints one line for each error, at most as many as fit a terminal.
-void tell_mistakes(const InputErrors& errors, const Console& console) {
+void tell_mistakes(const InputErrors& errors, const Console& console, std::span<const std::string> arguments) {
     constexpr std::size_t most = 20;
     const std::size_t count = errors.all().size();
     for (std::size_t i = 0; i < std::min(count, most); ++i)
-        console.err << "graze: " << in_options(errors.all()[i].what()) << '\n';
+        console.err << "graze: " << in_options(errors.all()[i].what(), arguments) << '\n';
     if (count > most)
         console.err << "graze: and " << (count < Mistakes::most ? "" : "at least ") << count - most
                     << " more; mend these first\n";
@@ -58,10 +58,10 @@ int tell_internal(const std::string& problem, const Console& console) {
     return exit_internal_error;
 }
 
-int tell_error(const Error& error, const Console& console) {
+int tell_error(const Error& error, const Console& console, std::span<const std::string> arguments) {
     if (error.kind() == ErrorKind::order || error.kind() == ErrorKind::internal)
         return tell_internal(error.problem(), console);
-    console.err << "graze: " << in_options(error.what()) << '\n';
+    console.err << "graze: " << in_options(error.what(), arguments) << '\n';
     return exit_bad_input;
 }
 
@@ -76,10 +76,10 @@ int run_program(std::span<const std::string> arguments, const Console& given) {
         require_delivered(console);
         return code;
     } catch (const InputErrors& errors) {
-        tell_mistakes(errors, console);
+        tell_mistakes(errors, console, arguments);
         return exit_bad_input;
     } catch (const Error& error) {
-        return tell_error(error, console);
+        return tell_error(error, console, arguments);
     } catch (const std::filesystem::filesystem_error& error) {
         console.err << "graze: " << shortened(error.path1().string(), 200) << ": " << error.code().message()
                     << "; give another path\n";

@@ -1,5 +1,6 @@
 // Bounds hold also if the last step contains branch points, folds, or both.
 
+#include "branch/bounds.hpp"
 #include "driven_oscillator.hpp"
 #include "follow.hpp"
 
@@ -38,6 +39,23 @@ void expect_within(const Branch& branch, double least, double greatest) {
     ASSERT_FALSE(branch.points.empty());
     const double end = branch.points.back().parameter;
     EXPECT_TRUE(end == least || end == greatest) << end;
+}
+
+TEST(Bounds, OneOfThemAloneIsABound) {
+    const Model model = about_a_clock("mu - u");
+    const auto put = [&](std::optional<double> least, std::optional<double> greatest, double mu) {
+        BranchSettings settings = in_parameter(model, "mu", 0, 1);
+        settings.least = least;
+        settings.greatest = greatest;
+        Orbit orbit = orbit_at(model, mu, 0);
+        put_on_bounds(settings, orbit);
+        return orbit.parameters[0];
+    };
+    EXPECT_EQ(put(0, {}, -0.1), 0);
+    EXPECT_EQ(put({}, 0, 0.1), 0);
+    EXPECT_EQ(put(0, {}, 0.1), 0.1);
+    EXPECT_EQ(put({}, 0, -0.1), -0.1);
+    EXPECT_EQ(put({}, {}, 5), 5);
 }
 
 TEST(Bounds, HoldNearAndAtABranchPoint) {

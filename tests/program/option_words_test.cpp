@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 namespace graze {
 namespace {
 
@@ -24,6 +27,10 @@ TEST(OptionWords, NameTheOptionThatDoesWhatTheLibraryAdvises) {
     EXPECT_EQ(in_options("x.csv: channel 'x' is in mm, and what it measures in m; convert it in the run that has the "
                          "record: scale = { x = { factor = 0.001, unit = \"m\" } }"),
               "x.csv: channel 'x' is in mm, and what it measures in m; convert it by --scale x=0.001:m");
+    EXPECT_EQ(
+        in_options("x.csv: channel 'my q' is in mm; convert it in the run that has the record: scale = { my q = { "
+                   "factor = 0.001, unit = \"m\" } }"),
+        "x.csv: channel 'my q' is in mm; convert it by --scale my q=0.001:m");
     EXPECT_EQ(in_options("run 'a' has no orbit number 99; give one of its 10 orbits"),
               "run 'a' has no orbit number 99; graze points --run a --all lists its 10 orbits");
     EXPECT_EQ(in_options("given gap: gap is -1 um, not positive"), "--set gap: gap is -1 um, not positive");
@@ -33,6 +40,14 @@ TEST(OptionWords, LeaveAllElseAsItIs) {
     for (const char* message : {"", "model.toml:1:1: unknown name 'a'; did you mean 'b'?",
                                 "'from its release on' is no channel", "it was given "})
         EXPECT_EQ(in_options(message), message);
+    EXPECT_EQ(in_options("run 'a': coupling lacks gap; give gap and stiffness, such as gap = 1"),
+              "run 'a': coupling lacks gap; give gap and stiffness, such as gap = 1");
+}
+
+TEST(OptionWords, AFileThatIsNamedLikeAnOptionIsToldAsAFile) {
+    const std::vector<std::string> arguments{"record", "scale"};
+    EXPECT_EQ(in_options("scale: the record cannot be read", arguments), "scale: the record cannot be read");
+    EXPECT_EQ(in_options("at: it is no number", arguments), "--at: it is no number");
 }
 
 } // namespace

@@ -19,7 +19,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "cmake"))
 from batches import batches_of  # noqa: E402
 
-MOST = 40  # sources in a batch
+MOST = 24  # sources in a batch
 
 
 def batch_text(sources):
@@ -90,7 +90,9 @@ def main(build, output, jobs, options):
         else:
             own[command["file"]] = command
     batches = [[command] for command in alone]
-    batches += [[own[file] for file in batch] for batch in batches_of(list(own), MOST)]
+    # Sources of a folder include the same headers.
+    for _, files in itertools.groupby(own, lambda file: pathlib.Path(file).parent):
+        batches += [[own[file] for file in batch] for batch in batches_of(list(files), MOST)]
     headers = sorted((ROOT / "include").rglob("*.hpp"))
     clean = True
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
