@@ -18,6 +18,11 @@ namespace {
 /// Whether each item of a list is used.
 using Used = std::vector<bool>;
 
+/// The value to show: the sign of what is no number means nothing.
+double unsigned_nan(double value) {
+    return std::isnan(value) ? std::abs(value) : value;
+}
+
 class Checker {
 public:
     explicit Checker(const Model& model) : model_(model) {
@@ -167,7 +172,7 @@ private:
         for (std::size_t i = 0; i < rates.size(); ++i)
             if (!std::isfinite(rates[i])) {
                 const std::string reason = culprit(mode.rates[i]);
-                warn("in the initial state the rate of '{}' is {}{}", model_.states[i].name, rates[i],
+                warn("in the initial state the rate of '{}' is {}{}", model_.states[i].name, unsigned_nan(rates[i]),
                      reason.empty() ? "" : ", because " + reason);
             }
         std::vector<Expression> functions;
@@ -177,7 +182,8 @@ private:
         for (std::size_t i = 0; i < values.size(); ++i) {
             const Event& event = model_.events[mode.watched[i]];
             if (!std::isfinite(values[i]))
-                warn_of("events." + event.name, "in the initial state the event '{}' is {}", event.name, values[i]);
+                warn_of("events." + event.name, "in the initial state the event '{}' is {}", event.name,
+                        unsigned_nan(values[i]));
             else if (values[i] < 0 && event.kind == EventKind::barrier)
                 warn_of("events." + event.name,
                         "in the initial state the barrier '{}' is {}: the motion starts on the wrong side of it; give "

@@ -101,6 +101,7 @@ TEST(Check, WarnsOfSectionsUsedAsBarriers) {
 TEST(Check, WarnsOfABadInitialState) {
     expect_warning(warnings("x = 1.0", "x = -0.5"), "the barrier 'contact' is -0.5");
     expect_warning(warnings("v = \"-g\"", "v = \"-g/v\""), "the rate of 'v' is -inf");
+    expect_warning(warnings("v = \"-g\"", "v = \"sqrt(-1 - x^2)\""), "the rate of 'v' is nan");
     EXPECT_TRUE(warnings("x = 1.0", "x = 0.0").empty());
 }
 
