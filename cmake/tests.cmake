@@ -103,6 +103,9 @@ if(Python3_FOUND)
     add_test(NAME names COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/layers/check_names.py
                                 ${PROJECT_SOURCE_DIR}
     )
+    add_test(NAME headers COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/layers/check_headers.py
+                                  ${PROJECT_SOURCE_DIR}
+    )
     add_test(NAME promises COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/documentation/check_promises.py
                                    ${PROJECT_SOURCE_DIR}
     )

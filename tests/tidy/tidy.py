@@ -17,6 +17,8 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "cmake"))
+sys.path.insert(0, str(ROOT / "tests/layers"))
+import check_headers  # noqa: E402
 from batches import batches_of  # noqa: E402
 
 MOST = 24  # sources in a batch
@@ -69,11 +71,22 @@ def look_at(batch, build, output, options):
     return done.stdout + (done.stderr if done.returncode else ""), done.returncode == 0
 
 
-def compile_header(header):
-    """What clang says of a header that is compiled by itself, with nothing but the public headers, and whether it compiles."""
-    words = ["clang++", "-std=c++20", "-fsyntax-only", "-Wno-pragma-once-outside-header", f"-I{ROOT}/include", str(header)]
-    done = subprocess.run(words, capture_output=True, text=True, check=False)
-    return done.stderr, done.returncode == 0
+def header_compiler(output):
+    """Returns a function that says what clang finds in a header that is compiled by itself, with nothing but the public
+    headers, and whether that is nothing. The standard library is parsed once: tests/layers/check_headers.py checks that
+    headers include what they use of it."""
+    words = ["clang++", "-std=c++20", f"-I{ROOT}/include"]
+    text = "".join(f"#include <{name}>\n" for name in check_headers.NAMES)
+    (output / "standard.hpp").write_text(text, encoding="utf-8")
+    prefix = str(output / "standard.pch")
+    subprocess.run([*words, "-x", "c++-header", str(output / "standard.hpp"), "-o", prefix], check=True)
+    words += ["-fsyntax-only", "-Wno-pragma-once-outside-header", "-include-pch", prefix]
+
+    def compile_header(header):
+        done = subprocess.run([*words, str(header)], capture_output=True, text=True, check=False)
+        return done.stderr, done.returncode == 0
+
+    return compile_header
 
 
 def main(build, output, jobs, options):
@@ -94,6 +107,8 @@ def main(build, output, jobs, options):
     for _, files in itertools.groupby(own, lambda file: pathlib.Path(file).parent):
         batches += [[own[file] for file in batch] for batch in batches_of(list(files), MOST)]
     headers = sorted((ROOT / "include").rglob("*.hpp"))
+    output.mkdir(parents=True, exist_ok=True)
+    compile_header = header_compiler(output)
     clean = True
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         looks = pool.map(lambda batch: look_at(batch, build, output, options), batches)

@@ -3,6 +3,7 @@
 #include "graze/acquire/experiment.hpp"
 #include "graze/record/record_writer.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>

@@ -3,6 +3,7 @@
 #include "graze/base/input_error.hpp"
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace graze {

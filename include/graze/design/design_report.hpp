@@ -10,6 +10,7 @@
 #include "graze/design/wishes.hpp"
 #include "graze/results/table.hpp"
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>

@@ -4,6 +4,7 @@
 #include "graze/design/trip_times.hpp"
 #include "graze/grazing/trial.hpp"
 
+#include <cstddef>
 #include <functional>
 #include <string>
 

@@ -2,6 +2,7 @@
 
 #include "graze/design/trip_point.hpp"
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>

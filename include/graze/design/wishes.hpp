@@ -4,6 +4,7 @@
 #include "graze/design/trip_point.hpp"
 #include "graze/design/wish_list.hpp"
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <vector>

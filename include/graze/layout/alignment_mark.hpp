@@ -2,6 +2,9 @@
 
 #include "graze/layout/layout_cell.hpp"
 
+#include <cstdint>
+#include <string>
+
 namespace graze {
 
 constexpr std::int64_t least_mark = 20; ///< smallest size, nanometres

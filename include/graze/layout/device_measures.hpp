@@ -2,6 +2,8 @@
 
 #include "graze/layout/device_drawing.hpp"
 
+#include <cstddef>
+
 namespace graze {
 
 /// Measures of a device's outlines that its lumped model needs, in micrometres and square micrometres.

@@ -4,6 +4,7 @@
 #include "graze/layout/lumped_model.hpp"
 #include "graze/layout/process_conditions.hpp"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 

@@ -4,6 +4,7 @@
 #include "graze/layout/device_file.hpp"
 #include "graze/layout/layout_cell.hpp"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 

@@ -4,6 +4,8 @@
 #include "graze/model/model.hpp"
 #include "graze/model/parameter_file.hpp"
 
+#include <span>
+
 namespace graze {
 
 /// Lumped model of a drawn and etched device: the parameters of Eq. (6.1) for a point mass, in SI units.

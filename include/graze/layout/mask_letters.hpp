@@ -2,6 +2,7 @@
 
 #include "graze/layout/grid_polygon.hpp"
 
+#include <cstdint>
 #include <string_view>
 #include <vector>
 

@@ -6,9 +6,12 @@
 #include "graze/layout/lumped_model.hpp"
 #include "graze/layout/process_spread.hpp"
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace graze {

@@ -6,8 +6,10 @@
 #include "graze/trajectory/simulation.hpp"
 
 #include <complex>
+#include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>

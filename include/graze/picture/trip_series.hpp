@@ -6,6 +6,7 @@
 #include "graze/trip/overshoot_trip.hpp"
 #include "graze/trip/trip_time.hpp"
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>

@@ -2,6 +2,7 @@
 
 #include "graze/layout/wafer_yield.hpp"
 
+#include <cstddef>
 #include <optional>
 #include <string>
 

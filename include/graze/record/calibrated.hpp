@@ -2,6 +2,7 @@
 
 #include "graze/record/samples.hpp"
 
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <optional>

@@ -3,6 +3,7 @@
 #include "graze/record/samples.hpp"
 
 #include <span>
+#include <vector>
 
 namespace graze {
 

@@ -4,9 +4,11 @@
 #include "graze/trajectory/observer.hpp"
 #include "graze/trajectory/trajectory.hpp"
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace graze {

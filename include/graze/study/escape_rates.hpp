@@ -4,6 +4,7 @@
 #include "graze/sweep/escape_law.hpp"
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace graze {

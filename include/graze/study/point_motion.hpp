@@ -2,6 +2,7 @@
 
 #include "graze/results/stored_run.hpp"
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>

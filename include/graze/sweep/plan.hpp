@@ -2,6 +2,7 @@
 
 #include "graze/sweep/point_search.hpp"
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <span>

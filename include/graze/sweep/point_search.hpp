@@ -4,6 +4,7 @@
 #include "graze/sweep/sampling.hpp"
 #include "graze/trajectory/trajectory.hpp"
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>

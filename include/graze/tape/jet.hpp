@@ -3,6 +3,8 @@
 #include "graze/tape/series.hpp"
 #include "graze/tape/tape.hpp"
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string_view>

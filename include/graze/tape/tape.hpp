@@ -2,8 +2,10 @@
 
 #include "graze/symbolic/expression.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace graze {
