@@ -96,7 +96,7 @@ private:
         throw InputError(toml_.place(*entry.node), problem, remedy);
     }
 
-    Keys keys_of(const TomlEntry& entry, std::initializer_list<std::string_view> known) const {
+    Keys keys_of(const TomlEntry& entry, const std::vector<std::string>& known) const {
         Keys keys;
         for (const TomlEntry& one : toml_.entries(toml_.table(entry), entry.path, known))
             keys.emplace(one.name, one);

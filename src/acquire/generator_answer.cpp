@@ -1,6 +1,7 @@
 #include "acquire/generator_answer.hpp"
 
 #include "base/letter_case.hpp"
+#include "base/read_whole.hpp"
 #include "graze/base/trimmed.hpp"
 
 #include <charconv>
@@ -12,9 +13,9 @@ namespace {
 
 constexpr double source_ohms = 50, high_impedance = 1e9;
 
-/// Start of the number after a plus sign, which std::from_chars does not accept.
-const char* behind_plus(std::string_view answer) {
-    return answer.data() + (answer.starts_with('+') ? 1 : 0);
+/// The number after a plus sign, which std::from_chars does not accept.
+std::string_view behind_plus(std::string_view answer) {
+    return answer.substr(answer.starts_with('+') ? 1 : 0);
 }
 
 } // namespace
@@ -24,10 +25,8 @@ bool is_of_transmission(int error) {
 }
 
 std::optional<double> answered_number(std::string_view answer) {
-    const char* const end = answer.data() + answer.size();
     double value = 0;
-    const auto [next, error] = std::from_chars(behind_plus(answer), end, value);
-    if (error != std::errc() || next != end || !std::isfinite(value))
+    if (!read_whole(behind_plus(answer), value) || !std::isfinite(value))
         return std::nullopt;
     return value;
 }
@@ -59,7 +58,7 @@ bool tells_on(const std::string& answer) {
 std::optional<int> answered_error(std::string_view answer) {
     const char* const end = answer.data() + answer.size();
     int number = 0;
-    const auto [next, error] = std::from_chars(behind_plus(answer), end, number);
+    const auto [next, error] = std::from_chars(behind_plus(answer).data(), end, number);
     if (error != std::errc() || next == end || *next != ',')
         return std::nullopt;
     return number;

@@ -373,9 +373,8 @@ void GeneratorClient::identify() {
             identity_ = asked("*IDN?");
             if (trimmed(identity_).empty() || !is_plain_line(identity_) ||
                 identity_.find(options_.identity) == std::string::npos)
-                throw InstrumentError(AcquisitionEnding::foreign,
-                                      fmt::format("the instrument on the line is '{}', not '{}'",
-                                                  shortened(printable_line(identity_), 100), options_.identity));
+                fail(AcquisitionEnding::foreign, "the instrument on the line is '{}', not '{}'",
+                     shortened(printable_line(identity_), 100), options_.identity);
             identified_ = true;
         } catch (const InstrumentError& error) {
             if (attempt >= options_.attempts || error.ending() == AcquisitionEnding::interrupted ||

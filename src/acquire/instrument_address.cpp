@@ -1,7 +1,7 @@
 #include "graze/acquire/instrument_address.hpp"
 
 #include "base/letter_case.hpp"
-#include "record/text_number.hpp"
+#include "base/read_whole.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #include "graze/acquire/record_folder.hpp"
 
+#include "base/read_whole.hpp"
 #include "graze/base/printable.hpp"
 #include "graze/base/text_file.hpp"
-#include "record/text_number.hpp"
 #include "record/text_table.hpp"
 
 #include <fmt/format.h>

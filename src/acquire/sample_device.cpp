@@ -1,5 +1,6 @@
 #include "graze/acquire/sample_device.hpp"
 
+#include "acquire/instrument_failure.hpp"
 #include "graze/base/printable.hpp"
 #include "graze/base/require.hpp"
 #include "graze/record/record_file.hpp"
@@ -26,8 +27,9 @@ Clock::time_point after(double seconds) {
 constexpr std::size_t rows_at_once = 1024;
 constexpr double part_of_timeout = 0.25; ///< for lines that are discarded
 
-[[noreturn]] void fail_to_sample(const std::string& what) {
-    throw InstrumentError(AcquisitionEnding::samples, fmt::format("{} {}", device_name, what));
+template <class... Parts>
+[[noreturn]] void fail_to_sample(fmt::format_string<Parts...> what, Parts&&... parts) {
+    fail(AcquisitionEnding::samples, "{} {}", device_name, fmt::format(what, std::forward<Parts>(parts)...));
 }
 
 } // namespace
@@ -54,9 +56,9 @@ TextSampleDevice::TextSampleDevice(std::shared_ptr<InstrumentLine> line, double 
 void TextSampleDevice::refuse(const std::string& line, const char* wanted) const {
     const std::string_view reason(line);
     if (reason.starts_with("ERROR"))
-        fail_to_sample(fmt::format(
-            "says: {}", shortened(printable_line(reason.substr(std::min<std::size_t>(6, reason.size()))), 200)));
-    fail_to_sample(fmt::format("says '{}' instead of {}", shortened(printable_line(line), 200), wanted));
+        fail_to_sample("says: {}",
+                       shortened(printable_line(reason.substr(std::min<std::size_t>(6, reason.size()))), 200));
+    fail_to_sample("says '{}' instead of {}", shortened(printable_line(line), 200), wanted);
 }
 
 std::string TextSampleDevice::asked(std::string_view question) {
@@ -72,7 +74,7 @@ void TextSampleDevice::set_rate(double rate) {
         refuse(answer, "'OK' and its rate");
     constexpr double roundoff = 1e-9;
     if (!(std::abs(taken - rate) <= roundoff * rate))
-        fail_to_sample(fmt::format("takes {} samples in a second instead of {}", taken, rate));
+        fail_to_sample("takes {} samples in a second instead of {}", taken, rate);
     rate_ = rate;
 }
 
@@ -91,8 +93,8 @@ void TextSampleDevice::begin(std::size_t count, std::size_t block) {
 /// Enforces the deadline for all samples: each row may arrive in time, and yet they never end.
 void TextSampleDevice::require_time() const {
     if (Clock::now() > latest_)
-        fail_to_sample(fmt::format("has sent only {} of {} samples, which last {:.6g} s, in {} times that time", given_,
-                                   wanted_, static_cast<double>(wanted_) / rate_, patience_));
+        fail_to_sample("has sent only {} of {} samples, which last {:.6g} s, in {} times that time", given_, wanted_,
+                       static_cast<double>(wanted_) / rate_, patience_);
 }
 
 void TextSampleDevice::parse(const std::string& row, Samples& samples) {
@@ -111,9 +113,9 @@ void TextSampleDevice::parse(const std::string& row, Samples& samples) {
     };
     const double time = next('\0');
     if (!(time > last_time_))
-        fail_to_sample(fmt::format("gives the time {} after {}", time, last_time_));
+        fail_to_sample("gives the time {} after {}", time, last_time_);
     if (const double due = static_cast<double>(given_) / rate_; rate_ > 0 && !(std::abs(time - due) * rate_ <= 0.5))
-        fail_to_sample(fmt::format("gives the time {} to its sample at {}", time, due));
+        fail_to_sample("gives the time {} to its sample at {}", time, due);
     samples.values.resize(header_.channels.size());
     samples.times.push_back(time);
     for (std::vector<double>& column : samples.values)
@@ -143,8 +145,8 @@ bool TextSampleDevice::read(Samples& samples) {
         const char* const end = row.data() + row.size();
         if (row.size() < 5 || std::from_chars(row.data() + 4, end, count).ptr != end || count != given_ ||
             given_ != wanted_)
-            fail_to_sample(fmt::format("ends with '{}' after {} of {} samples", shortened(printable_line(row), 100),
-                                       given_, wanted_));
+            fail_to_sample("ends with '{}' after {} of {} samples", shortened(printable_line(row), 100), given_,
+                           wanted_);
     }
     return samples.rows() > 0;
 }

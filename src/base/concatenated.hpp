@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace graze {
@@ -8,6 +9,7 @@ namespace graze {
 template <class... Lists>
 std::vector<double> concatenated(const Lists&... lists) {
     std::vector<double> all;
+    all.reserve((static_cast<std::size_t>(lists.size()) + ...));
     (all.insert(all.end(), lists.begin(), lists.end()), ...);
     return all;
 }

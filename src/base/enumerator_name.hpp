@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -13,6 +14,15 @@ constexpr std::string_view enumerator_name(std::span<const std::string_view> nam
                                            std::string_view otherwise) {
     const auto index = static_cast<std::size_t>(value);
     return index < names.size() ? names[index] : otherwise;
+}
+
+/// Returns the enumerator of this name, of those up to the last one; nothing for other names.
+template <class Enumeration>
+std::optional<Enumeration> enumerator_named(std::string_view name, Enumeration last) {
+    for (int i = 0; i <= static_cast<int>(last); ++i)
+        if (name == name_of(static_cast<Enumeration>(i)))
+            return static_cast<Enumeration>(i);
+    return std::nullopt;
 }
 
 } // namespace graze

@@ -1,8 +1,8 @@
 #include "graze/base/error.hpp"
 
+#include "base/enumerator_name.hpp"
 #include "graze/base/printable.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace graze {
@@ -39,7 +39,7 @@ std::string Place::text() const {
 
 std::string_view name_of(ErrorKind kind) {
     constexpr std::string_view names[] = {"input", "file", "instrument", "order", "internal"};
-    return names[std::min(static_cast<std::size_t>(kind), std::size(names) - 1)];
+    return enumerator_name(names, kind, "internal");
 }
 
 Error::Error(ErrorKind kind, Place place, const std::string& problem, const std::string& remedy)

@@ -1,12 +1,12 @@
 #include "graze/base/physical_unit.hpp"
 
 #include "base/letter_case.hpp"
+#include "base/read_whole.hpp"
 #include "graze/base/input_error.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <utility>
@@ -156,12 +156,8 @@ PhysicalUnit physical_unit(std::string_view text) {
             const std::size_t hat = factor.find('^');
             const auto unit = with_prefix(factor.substr(0, hat));
             int power = 1;
-            if (hat != std::string_view::npos) {
-                const std::string_view digits = factor.substr(hat + 1);
-                const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), power);
-                if (read.ec != std::errc() || read.ptr != digits.data() + digits.size() || std::abs(power) > most)
-                    fail(text);
-            }
+            if (hat != std::string_view::npos && (!read_whole(factor.substr(hat + 1), power) || std::abs(power) > most))
+                fail(text);
             if (!unit || result.exponent > 1000 || result.exponent < -1000)
                 fail(text);
             result.exponent += sign * power * unit->exponent;

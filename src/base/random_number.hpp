@@ -10,13 +10,17 @@ namespace graze {
 // Pseudorandom numbers that depend on their position alone, not on earlier draws: results are the same in any order of
 // evaluation and on any number of threads.
 
-/// Returns a hash of `x`, one step of SplitMix64 (G. L. Steele, D. Lea and C. H. Flood, "Fast splittable pseudorandom
-/// number generators", 2014).
-inline std::uint64_t mixed(std::uint64_t x) {
-    x += 0x9e3779b97f4a7c15ULL;
+/// Returns the output of SplitMix64 (G. L. Steele, D. Lea and C. H. Flood, "Fast splittable pseudorandom number
+/// generators", 2014) in the state `x`.
+inline std::uint64_t scrambled(std::uint64_t x) {
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
     x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
     return x ^ (x >> 31);
+}
+
+/// Returns a hash of `x`, one step of SplitMix64.
+inline std::uint64_t mixed(std::uint64_t x) {
+    return scrambled(x + 0x9e3779b97f4a7c15ULL);
 }
 
 /// Returns a uniform number in the open interval (0, 1). @param item such as the device; @param place index of the draw

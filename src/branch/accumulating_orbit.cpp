@@ -1,5 +1,6 @@
 #include "branch/accumulating_orbit.hpp"
 
+#include "base/concatenated.hpp"
 #include "base/linear_systems.hpp"
 #include "base/special_numbers.hpp"
 #include "branch/inserted_contact.hpp"
@@ -55,9 +56,7 @@ AccumulatingOrbit::AccumulatingOrbit(const System& system, const Orbit& like, st
 }
 
 std::vector<double> AccumulatingOrbit::inputs(const VectorXd& state) const {
-    std::vector<double> result = numbers_of(state);
-    result.insert(result.end(), parameters_.begin(), parameters_.end());
-    return result;
+    return concatenated(state, parameters_);
 }
 
 bool AccumulatingOrbit::set(const VectorXd& unknowns) {

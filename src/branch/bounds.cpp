@@ -124,11 +124,15 @@ bool leads_beyond_bounds(BranchState& state) {
                        [&](const FreeBounds& one) { return leaves(one.parameter, one.least, one.greatest); });
 }
 
+double within_bounds(double value, const std::optional<double>& least, const std::optional<double>& greatest) {
+    return std::min(std::max(value, least.value_or(-infinity)), greatest.value_or(infinity));
+}
+
 void put_on_bounds(const BranchSettings& settings, Orbit& orbit) {
     const auto put = [&](ParameterId parameter, const std::optional<double>& least,
                          const std::optional<double>& greatest) {
         double& value = orbit.parameters[parameter.place()];
-        value = std::min(std::max(value, least.value_or(-infinity)), greatest.value_or(infinity));
+        value = within_bounds(value, least, greatest);
     };
     put(settings.parameter, settings.least, settings.greatest);
     for (const FreeBounds& bounds : settings.free_bounds)

@@ -3,6 +3,7 @@
 #include "branch/point_kind.hpp"
 #include "graze/branch/orbit_branch.hpp"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,8 @@ bool leads_beyond_bounds(BranchState& state);
 inline bool is_outside(const BranchSettings& settings, double value) {
     return (settings.least && value < *settings.least) || (settings.greatest && value > *settings.greatest);
 }
+/// Clamps a value to bounds, of which either may be missing.
+double within_bounds(double value, const std::optional<double>& least, const std::optional<double>& greatest);
 /// Clamps parameters to their bounds, which round-off may have exceeded.
 void put_on_bounds(const BranchSettings& settings, Orbit& orbit);
 

@@ -1,5 +1,6 @@
 #include "branch/branch_state.hpp"
 
+#include "base/concatenated.hpp"
 #include "branch/bounds.hpp"
 #include "branch/branch_point_problem.hpp"
 #include "branch/orbit_quantity.hpp"
@@ -174,9 +175,7 @@ std::vector<double> BranchState::rates_at_sections() {
 }
 
 std::vector<double> BranchState::rates_at(const Orbit& orbit, std::size_t segment) const {
-    std::vector<double> inputs = orbit.starts[segment];
-    inputs.insert(inputs.end(), orbit.parameters.begin(), orbit.parameters.end());
-    return system().mode(orbit.signature[segment].mode).rates(inputs);
+    return system().mode(orbit.signature[segment].mode).rates(concatenated(orbit.starts[segment], orbit.parameters));
 }
 
 std::optional<DescribedPoint> BranchState::describe(const ContinuationPoint& at) {

@@ -89,8 +89,7 @@ private:
         return step > 0 ? step : share;
     }
     double within(std::size_t which, double value) const {
-        const FreeBounds& bounds = bounds_[which];
-        return std::min(std::max(value, bounds.least.value_or(-infinity)), bounds.greatest.value_or(infinity));
+        return within_bounds(value, bounds_[which].least, bounds_[which].greatest);
     }
     std::optional<Reached> hold(std::size_t held, const Orbit& here, const Place& ahead, const Orbit* before,
                                 double length_before, std::string& why) const {

@@ -1,5 +1,6 @@
 #include "graze/branch/chatter_limit.hpp"
 
+#include "base/concatenated.hpp"
 #include "base/special_numbers.hpp"
 #include "branch/accumulating_orbit.hpp"
 #include "graze/base/input_error.hpp"
@@ -233,11 +234,8 @@ ChatterLimit chatter_limit_near(const System& system, const Orbit& known, std::s
     if (contact == known.signature.rend())
         throw InputError("the orbit has no contact at this event", "choose the event at which contacts accumulate");
     std::vector<double> state = known.starts.front();
-    if (known.symmetry) { // the image of the image is the state itself
-        std::vector<double> inputs = state;
-        inputs.insert(inputs.end(), known.parameters.begin(), known.parameters.end());
-        state = system.symmetry(*known.symmetry).map(inputs);
-    }
+    if (known.symmetry) // the image of the image is the state itself
+        state = system.symmetry(*known.symmetry).map(concatenated(state, known.parameters));
     ChatterLimit limit;
     constexpr std::size_t contacts = 8;
     ApproachToLimit(AccumulatingOrbit(system, known, contact->mode, event, along, tolerance))

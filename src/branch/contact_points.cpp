@@ -1,5 +1,6 @@
 #include "branch/contact_points.hpp"
 
+#include "base/concatenated.hpp"
 #include "base/special_numbers.hpp"
 #include "branch/branch_state.hpp"
 #include "branch/grazing_switch.hpp"
@@ -301,8 +302,7 @@ void test_acceleration(const TestedPoint& point, std::vector<BranchTest>& tests)
     const std::size_t mode = equations.signature()[kept->segment].mode;
     const Expression acceleration = rates_of(equations.system(), mode, kept->event, 2).back();
     const auto& last = point.at.pieces[equations.layout().last_piece(kept->segment)];
-    std::vector<double> inputs = last.end;
-    inputs.insert(inputs.end(), point.at.parameters.begin(), point.at.parameters.end());
+    const std::vector<double> inputs = concatenated(last.end, point.at.parameters);
     tests.push_back(
         {.type = PointType::zero_acceleration,
          .segment = kept->segment,

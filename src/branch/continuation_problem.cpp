@@ -5,7 +5,6 @@
 #include "orbit/eigen_index.hpp"
 
 #include <Eigen/Core>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>

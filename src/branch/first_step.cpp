@@ -10,7 +10,7 @@ namespace {
 /// True when a curve of torus points that starts at a resonance goes to the side where the pair is real.
 bool is_beyond_torus(const DescribedPoint& start, const DescribedPoint& here) {
     const auto value = [](const std::vector<BranchTest>& tests, PointType type) {
-        const auto test = std::find_if(tests.begin(), tests.end(), [&](const auto& one) { return one.type == type; });
+        const auto test = std::ranges::find(tests, type, &BranchTest::type);
         return test == tests.end() ? 0 : test->value;
     };
     // The tests are the sum of the pair minus 2 and minus -2; the other resonance may be passed within one step.

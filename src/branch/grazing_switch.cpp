@@ -1,5 +1,6 @@
 #include "branch/grazing_switch.hpp"
 
+#include "base/concatenated.hpp"
 #include "base/linear_systems.hpp"
 #include "branch/bounds.hpp"
 #include "branch/inserted_contact.hpp"
@@ -75,9 +76,8 @@ struct Touch {
         return numbers_of(vector_of(state) + step.cwiseProduct(shooting.scales().head(index(n))));
     }
 
-    std::vector<double> inputs(std::vector<double> values) const {
-        values.insert(values.end(), orbit->parameters.begin(), orbit->parameters.end());
-        return values;
+    std::vector<double> inputs(const std::vector<double>& values) const {
+        return concatenated(values, orbit->parameters);
     }
 
     Simulation simulation;

@@ -1,8 +1,7 @@
 #include "branch/inserted_contact.hpp"
 
+#include "base/concatenated.hpp"
 #include "branch/other_branch.hpp"
-
-#include <algorithm>
 
 namespace graze {
 
@@ -14,8 +13,7 @@ Orbit two_rounds(const System& system, const Orbit& orbit) {
     const std::size_t count = orbit.segments();
     for (std::size_t k = 0; orbit.symmetry && k < count; ++k) {
         std::vector<double>& start = result.starts[count + k];
-        start.insert(start.end(), orbit.parameters.begin(), orbit.parameters.end());
-        start = system.symmetry(*orbit.symmetry).map(start);
+        start = system.symmetry(*orbit.symmetry).map(concatenated(start, orbit.parameters));
         result.signature[count + k] = image_of(system, *orbit.symmetry, orbit.signature[k], orbit);
     }
     return result;

@@ -1,5 +1,7 @@
 #include "graze/branch/monitor.hpp"
 
+#include "base/concatenated.hpp"
+#include "base/read_whole.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 #include "graze/flow/roots.hpp"
@@ -8,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -30,8 +31,7 @@ std::size_t segment_named(const Model& model, const Signature& signature, const 
     const std::string& text = monitor.segment;
     const auto number = [](std::string_view digits) -> std::optional<std::size_t> {
         std::size_t value = 0;
-        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-        return error == std::errc() && end == digits.data() + digits.size() ? std::optional(value) : std::nullopt;
+        return read_whole(digits, value) ? std::optional(value) : std::nullopt;
     };
     const auto fail = [&]() -> std::size_t {
         throw InputError(fmt::format("monitor '{}': the orbit has no segment '{}'", monitor.name, text),
@@ -169,9 +169,8 @@ private:
                 values_[m] = at(m, state, orbit);
     }
 
-    double at(std::size_t m, std::vector<double> state, const Orbit& orbit) const {
-        state.insert(state.end(), orbit.parameters.begin(), orbit.parameters.end());
-        return functions_[m](state)[0];
+    double at(std::size_t m, const std::vector<double>& state, const Orbit& orbit) const {
+        return functions_[m](concatenated(state, orbit.parameters))[0];
     }
 
     void gather(std::size_t m, const double* series, double length) {

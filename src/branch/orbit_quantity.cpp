@@ -1,5 +1,6 @@
 #include "branch/orbit_quantity.hpp"
 
+#include "base/concatenated.hpp"
 #include "flow/lie_derivative.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
@@ -87,8 +88,8 @@ std::optional<OrbitQuantity> OrbitQuantity::of_guard(const OrbitEquations& equat
                                                      std::size_t segment) {
     const Transition& transition = transition_of(equations, segment);
     Model model = equations.model();
-    std::vector<double> inputs = at.pieces[equations.layout().last_piece(segment)].end;
-    inputs.insert(inputs.end(), at.parameters.begin(), at.parameters.end());
+    const std::vector<double> inputs =
+        concatenated(at.pieces[equations.layout().last_piece(segment)].end, at.parameters);
     std::optional<Expression> nearest;
     double least = 0;
     for (const Alternative& alternative : transition.next)
@@ -164,9 +165,9 @@ std::vector<std::size_t> OrbitQuantity::pieces(const OrbitLayout& layout) const 
 
 /// Returns the gradient with respect to states, then free parameters, and sets the value.
 Eigen::VectorXd OrbitQuantity::gradient_at(const OrbitEquations& equations, const OrbitEvaluation& at,
-                                           const Watched& watched, std::vector<double> state, double& value) const {
-    state.insert(state.end(), at.parameters.begin(), at.parameters.end());
-    const std::vector<double> all = watched.function(state);
+                                           const Watched& watched, const std::vector<double>& state,
+                                           double& value) const {
+    const std::vector<double> all = watched.function(concatenated(state, at.parameters));
     value = all[0];
     return equations.gradient_of(all);
 }

@@ -77,7 +77,7 @@ private:
     double distance_from_touch(const OrbitEquations& equations, double share) const;
     bool mean(const OrbitEquations& equations, const OrbitEvaluation& at);
     Eigen::VectorXd gradient_at(const OrbitEquations& equations, const OrbitEvaluation& at, const Watched& watched,
-                                std::vector<double> state, double& value) const;
+                                const std::vector<double>& state, double& value) const;
 
     Monitor::Kind kind_;
     std::optional<std::size_t> segment_;

@@ -1,5 +1,6 @@
 #include "branch/parameter_points.hpp"
 
+#include "base/concatenated.hpp"
 #include "branch/branch_state.hpp"
 #include "orbit/eigen_index.hpp"
 
@@ -73,8 +74,7 @@ bool follows_force(BranchState& state, const Orbit& orbit) {
                                                   [](double one) { return one == 0; });
         for (std::size_t s = 0; forces && s < orbit.segments(); ++s) {
             const Segment& segment = orbit.signature[s];
-            std::vector<double> inputs = orbit.starts[s];
-            inputs.insert(inputs.end(), orbit.parameters.begin(), orbit.parameters.end());
+            const std::vector<double> inputs = concatenated(orbit.starts[s], orbit.parameters);
             const Expression rate = model.expand(model.modes[segment.mode].rates[i]);
             const Eigen::VectorXd by_all = equations.gradient_of(system.with_gradient(rate)(inputs));
             forces = by_all.head(index(states)).isZero(0) &&

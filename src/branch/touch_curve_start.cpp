@@ -1,5 +1,6 @@
 #include "branch/touch_curve_start.hpp"
 
+#include "base/concatenated.hpp"
 #include "branch/inserted_contact.hpp"
 #include "branch/point_kind.hpp"
 #include "orbit/newton.hpp"
@@ -26,8 +27,7 @@ bool jump_is_identity(const System& system, const Orbit& orbit, std::size_t segm
     if (jump.identity)
         return true;
     const std::vector<double>& state = orbit.starts[(segment + 1) % orbit.segments()];
-    std::vector<double> inputs = state;
-    inputs.insert(inputs.end(), orbit.parameters.begin(), orbit.parameters.end());
+    const std::vector<double> inputs = concatenated(state, orbit.parameters);
     const std::vector<double> after = jump.map(inputs), rates = system.mode(one.mode).rates(inputs);
     return std::all_of(jump.changed.begin(), jump.changed.end(), [&](std::size_t i) {
         double size = std::abs(rates[i]) * orbit.return_time();
@@ -94,8 +94,7 @@ bool touches_at_start(const System& system, const Orbit& orbit, ModeFlow& flow) 
     const std::size_t states = system.states(), count = mode.watched.size();
     std::vector<double> first, greatest(2 * count, 0.0), state = orbit.starts[0];
     for (int part = 0; part < parts; ++part) {
-        std::vector<double> inputs = state;
-        inputs.insert(inputs.end(), orbit.parameters.begin(), orbit.parameters.end());
+        const std::vector<double> inputs = concatenated(state, orbit.parameters);
         std::vector<double> here = mode.events(inputs);
         const std::vector<double> gradients = mode.event_gradients(inputs), rates = mode.rates(inputs);
         for (std::size_t w = 0; w < count; ++w)

@@ -32,8 +32,7 @@ bool Wanted::is_empty() const {
 }
 
 std::optional<std::size_t> Design::find_dimension(std::string_view dimension) const {
-    const auto found =
-        std::ranges::find_if(dimensions, [&](const DesignDimension& one) { return one.name == dimension; });
+    const auto found = std::ranges::find(dimensions, dimension, &DesignDimension::name);
     if (found == dimensions.end())
         return std::nullopt;
     return static_cast<std::size_t>(found - dimensions.begin());

@@ -61,15 +61,20 @@ const TomlEntry* DesignReader::key(const std::string& name) const {
 void DesignReader::read_approach(const TomlEntry& entry) {
     Approach& approach = design_.approach;
     approach.place = entry.place;
-    const std::map<std::string, std::string*> texts{
-        {"study", &approach.study}, {"run", &approach.run}, {"point", &approach.point}, {"event", &approach.event}};
-    reader_.each_of(entry, {"study", "run", "point", "from", "range", "event", "cycles"}, [&](const TomlEntry& item) {
-        approach_.emplace(item.name, item);
-        if (item.name == "cycles")
-            approach.cycles = reader_.count(item, 1, 1'000'000);
-        else if (const auto text = texts.find(item.name); text != texts.end())
-            *text->second = reader_.toml().line(item);
-    });
+    const auto noted = [&](const StudyReader::ReadEntry& read) {
+        return [this, read](const TomlEntry& item) {
+            approach_.emplace(item.name, item);
+            if (read)
+                read(item);
+        };
+    };
+    reader_.read_keys(entry, {{"study", noted(reader_.into(approach.study))},
+                              {"run", noted(reader_.into(approach.run))},
+                              {"point", noted(reader_.into(approach.point))},
+                              {"from", noted({})},
+                              {"range", noted({})},
+                              {"event", noted(reader_.into(approach.event))},
+                              {"cycles", noted(reader_.into(approach.cycles, {1, 1'000'000}))}});
     const bool of_study = !approach.study.empty();
     for (const char* name : {"run", "point"})
         if (of_study != approach_.contains(name))
@@ -295,9 +300,8 @@ void DesignReader::read_choices() {
     if (const TomlEntry* entry = key("adjustable"))
         design_.adjustable = dimension_named(*entry);
     if (const TomlEntry* entry = key("points"))
-        reader_.each_of(*entry, {"curve", "plane"}, [&](const TomlEntry& item) {
-            (item.name == "curve" ? design_.curve_points : design_.plane_points) = reader_.count(item, 2, most_points);
-        });
+        reader_.read_keys(*entry, {{"curve", reader_.into(design_.curve_points, {2, most_points})},
+                                   {"plane", reader_.into(design_.plane_points, {2, most_points})}});
     if (const TomlEntry* entry = key("planes")) {
         const auto items = reader_.toml().elements(*entry);
         if (items.size() > most_planes)
@@ -322,14 +326,11 @@ void DesignReader::read_choices() {
 
 void DesignReader::read_yield(const TomlEntry& entry) {
     DesignYield& yield = design_.yield;
-    reader_.each_of(entry, {"devices", "seed", "within"}, [&](const TomlEntry& item) {
-        if (item.name == "devices")
-            yield.devices = reader_.count(item, 2, 1'000'000);
-        else if (item.name == "seed")
-            yield.seed = reader_.count(item);
-        else
-            std::tie(yield.least, yield.greatest) = reader_.range(design_.model, item);
-    });
+    reader_.read_keys(entry, {{"devices", reader_.into(yield.devices, {2, 1'000'000})},
+                              {"seed", [&](const TomlEntry& item) { yield.seed = reader_.count(item); }},
+                              {"within", [&](const TomlEntry& item) {
+                                   std::tie(yield.least, yield.greatest) = reader_.range(design_.model, item);
+                               }}});
 }
 
 } // namespace graze

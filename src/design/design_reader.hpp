@@ -54,8 +54,9 @@ public:
     void read(const TomlEntry& entry);
 
 private:
-    void read_item(const TomlEntry& item);
     void read_value(const TomlEntry& item);
+    void read_trip_time(const TomlEntry& item);
+    void read_sensitivity(const TomlEntry& item);
     void read_yield(const TomlEntry& item);
     void read_importance(const TomlEntry& item);
     double number(const TomlEntry& entry) const { return reader_.number(design_.model, entry); }

@@ -100,7 +100,7 @@ private:
             Sensitivity one;
             one.parameter = located.others()[i];
             one.name = names[one.parameter.place()];
-            one.unit = model.parameters[*model.find_parameter(one.name)].unit;
+            one.unit = model.parameter_unit(one.name);
             one.value = located.values()[i];
             one.derivative = located.derivatives()[i];
             if (located.value() != 0)

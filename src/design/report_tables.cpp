@@ -11,17 +11,11 @@ namespace graze {
 
 namespace {
 
-/// Adds the cells of one row.
-template <class... Cells>
-void add_row(Table& table, const Cells&... cells) {
-    (table.add(cells), ...);
-}
-
 /// The table of facts.
 class FactRows {
 public:
     void add(const std::string& name, double value, const std::string& unit, const std::string& meaning) {
-        add_row(table_, name, value, unit, meaning);
+        table_.add(name, value, unit, meaning);
     }
     void add(const std::string& name, const std::optional<double>& value, const std::string& unit,
              const std::string& meaning) {
@@ -29,17 +23,13 @@ public:
             add(name, *value, unit, meaning);
     }
     void add(const std::string& name, std::string_view value, const std::string& meaning) {
-        add_row(table_, name, value, "", meaning);
+        table_.add(name, value, "", meaning);
     }
     Table take() { return std::move(table_); }
 
 private:
     Table table_{{{"quantity", ""}, {"value", ""}, {"unit", ""}, {"meaning", ""}}};
 };
-
-std::string unit_of(const Model& model, const std::string& parameter) {
-    return model.parameters[*model.find_parameter(parameter)].unit;
-}
 
 /// @param trip optional TripTime, or a prediction of one
 double if_ended(const auto& trip, double TripTime::*number) {
@@ -142,14 +132,14 @@ Table wishes_table(const MetWishes& wishes) {
     for (std::size_t i = 0; i < wishes.found.wants.size(); ++i) {
         const FoundWant& one = wishes.found.wants[i];
         const Want& want = wishes.list.wants[i];
-        add_row(table, want.name, bound_of(want.least), bound_of(want.most), one.value.value_or(not_a_number),
-                yes_or_no(one.met), yes_or_no(one.binds), one.weight);
+        table.add(want.name, bound_of(want.least), bound_of(want.most), one.value, yes_or_no(one.met),
+                  yes_or_no(one.binds), one.weight);
     }
     for (std::size_t i = 0; i < wishes.found.dimensions.size(); ++i) {
         const FoundDimension& one = wishes.found.dimensions[i];
         const Dimension& range = wishes.list.dimensions[i];
-        add_row(table, range.name, bound_of(range.lowest), bound_of(range.highest), one.value, "", yes_or_no(one.binds),
-                one.weight);
+        table.add(range.name, bound_of(range.lowest), bound_of(range.highest), one.value, "", yes_or_no(one.binds),
+                  one.weight);
     }
     return table;
 }
@@ -157,7 +147,7 @@ Table wishes_table(const MetWishes& wishes) {
 Table earlier_table(const TripPoint& trip, const std::string& control, const std::string& unit) {
     Table table({{"run", ""}, {"label", ""}, {"type", ""}, {control, unit}, {"changes", ""}, {"detail", ""}});
     for (const EarlierPoint& one : trip.earlier)
-        add_row(table, one.run, one.label, name_of(one.type), one.value, yes_or_no(one.changes), one.detail);
+        table.add(one.run, one.label, name_of(one.type), one.value, yes_or_no(one.changes), one.detail);
     return table;
 }
 
@@ -180,8 +170,7 @@ Table sensitivity_table(const Design& design, const DesignReport& report, const 
                 if (part.parameter == one.parameter)
                     effect = part.deviation, share = part.share;
         }
-        add_row(table, one.name, one.value, one.unit, one.derivative, one.relative.value_or(not_a_number), deviation,
-                effect, share);
+        table.add(one.name, one.value, one.unit, one.derivative, one.relative, deviation, effect, share);
     }
     return table;
 }
@@ -196,13 +185,13 @@ Table times_table(const DesignReport& report, const std::string& unit, const std
                  {"ending", ""},
                  {"simulated_time", time_unit}});
     for (const OvershootTrip& row : report.times.rows) {
-        add_row(table, row.overshoot, row.continued ? row.predicted->first_speed : not_a_number,
-                if_ended(row.predicted, &TripTime::cycles), if_ended(row.predicted, &TripTime::time),
-                if_ended(row.continued, &TripTime::cycles), if_ended(row.continued, &TripTime::time),
-                row.continued   ? row.continued->ending
-                : row.simulated ? row.simulated->ending
-                                : "",
-                if_ended(row.simulated, &TripTime::time));
+        table.add(row.overshoot, row.continued ? row.predicted->first_speed : not_a_number,
+                  if_ended(row.predicted, &TripTime::cycles), if_ended(row.predicted, &TripTime::time),
+                  if_ended(row.continued, &TripTime::cycles), if_ended(row.continued, &TripTime::time),
+                  row.continued   ? row.continued->ending
+                  : row.simulated ? row.simulated->ending
+                                  : "",
+                  if_ended(row.simulated, &TripTime::time));
     }
     return table;
 }
@@ -211,7 +200,7 @@ Table tuning_table(const Tuning& tuning, const Design& design, const DesignDimen
     Table table({{design.control, unit}, {stop.name, stop.unit}, {"usable", ""}, {"problem", ""}});
     for (const TuningPoint& one : tuning.points) {
         const bool usable = one.value >= tuning.least && one.value <= tuning.greatest;
-        add_row(table, one.value, one.found ? one.position : not_a_number, yes_or_no(usable), one.problem);
+        table.add(one.value, one.found ? one.position : not_a_number, yes_or_no(usable), one.problem);
     }
     return table;
 }
@@ -221,8 +210,8 @@ Table device_table(const Yield& yield, const std::string& control, const std::st
     Table table({{"device", ""}, {control, unit}, {"linear", unit}, {"outcome", ""}});
     for (std::size_t i = 0; i < yield.devices.size(); ++i) {
         const Device& device = yield.devices[i];
-        add_row(table, static_cast<double>(i + 1), device.outcome == DeviceOutcome::found ? device.value : not_a_number,
-                device.linear, enumerator_name(outcomes, device.outcome, "not made"));
+        table.add(static_cast<double>(i + 1), device.outcome == DeviceOutcome::found ? device.value : not_a_number,
+                  device.linear, enumerator_name(outcomes, device.outcome, "not made"));
     }
     return table;
 }
@@ -231,7 +220,7 @@ Table device_table(const Yield& yield, const std::string& control, const std::st
 
 Table facts_of(const Design& design, const TripPoint& trip, const DesignReport& report) {
     const Model& model = trip.system.model();
-    const std::string unit = unit_of(model, design.control);
+    const std::string unit = model.parameter_unit(design.control);
     const Orbit& orbit = trip.point.solution.orbit;
     FactRows facts;
     if (report.wishes)
@@ -287,7 +276,7 @@ Table facts_of(const Design& design, const TripPoint& trip, const DesignReport& 
 
 std::vector<NamedTable> tables_of(const Design& design, const TripPoint& trip, const DesignReport& report) {
     const Model& model = trip.system.model();
-    const std::string unit = unit_of(model, design.control);
+    const std::string unit = model.parameter_unit(design.control);
     std::vector<NamedTable> tables;
     tables.push_back({"facts", facts_of(design, trip, report)});
     tables.push_back({"sensitivities", sensitivity_table(design, report, unit)});
@@ -299,14 +288,14 @@ std::vector<NamedTable> tables_of(const Design& design, const TripPoint& trip, c
         const DesignDimension& one = design.dimensions[curve.dimension];
         Table table({{one.name, one.unit}, {design.control, unit}, {"class", ""}, {"problem", ""}});
         for (const MappedValue& point : curve.points)
-            add_row(table, point.x, value_of(point), name_of_class(point), point.problem);
+            table.add(point.x, value_of(point), name_of_class(point), point.problem);
         tables.push_back({"curve-" + one.name, std::move(table)});
     }
     for (const DimensionPlane& plane : report.planes) {
         const DesignDimension &x = design.dimensions[plane.across], &y = design.dimensions[plane.up];
         Table table({{x.name, x.unit}, {y.name, y.unit}, {design.control, unit}, {"class", ""}, {"problem", ""}});
         for (const MappedValue& point : plane.points)
-            add_row(table, point.x, point.y, value_of(point), name_of_class(point), point.problem);
+            table.add(point.x, point.y, value_of(point), name_of_class(point), point.problem);
         tables.push_back({fmt::format("plane-{}-{}", x.name, y.name), std::move(table)});
     }
     if (report.tuning)

@@ -27,35 +27,20 @@ void WantedReader::read_value(const TomlEntry& item) {
                      "let approach.range begin below what is wanted");
 }
 
-void WantedReader::read_item(const TomlEntry& item) {
-    if (item.name == "value") {
-        read_value(item);
-    } else if (item.name == "class") {
-        constexpr GrazingOutcome outcomes[] = {GrazingOutcome::lost, GrazingOutcome::persists, GrazingOutcome::folds};
-        wanted_.outcome = outcomes[reader_.choice(item, {"trips", "persists", "folds"})];
-    } else if (item.name == "reset") {
-        std::tie(wanted_.least_reset, wanted_.greatest_reset) = reader_.range(design_.model, item);
-        wanted_.reset_place = reader_.toml().place(*item.node);
-    } else if (item.name == "clear") {
-        wanted_.clear = reader_.positive(design_.model, item);
-    } else if (item.name == "trip_time") {
-        reader_.each_of(item, {"overshoot", "longest"}, [&](const TomlEntry& one) {
-            (one.name == "overshoot" ? wanted_.overshoot : wanted_.longest_time) = reader_.positive(design_.model, one);
-        });
-        if (!wanted_.overshoot || !wanted_.longest_time)
-            reader_.fail(item, fmt::format("{} is not complete", item.path),
-                         "write { overshoot = A, longest = B }: the greatest time at that overshoot");
-    } else if (item.name == "yield") {
-        read_yield(item);
-    } else if (item.name == "importance") {
-        read_importance(item);
-    } else {
-        reader_.each_of(item, {}, [&](const TomlEntry& one) {
-            const ParameterId parameter =
-                with_place(one.place, [&] { return design_.model.independent_parameter(one.name); });
-            wanted_.sensitivities.emplace_back(parameter, reader_.positive(design_.model, one));
-        });
-    }
+void WantedReader::read_trip_time(const TomlEntry& item) {
+    reader_.read_keys(item, {{"overshoot", reader_.into(wanted_.overshoot, design_.model, positive_number)},
+                             {"longest", reader_.into(wanted_.longest_time, design_.model, positive_number)}});
+    if (!wanted_.overshoot || !wanted_.longest_time)
+        reader_.fail(item, fmt::format("{} is not complete", item.path),
+                     "write { overshoot = A, longest = B }: the greatest time at that overshoot");
+}
+
+void WantedReader::read_sensitivity(const TomlEntry& item) {
+    reader_.each_of(item, {}, [&](const TomlEntry& one) {
+        const ParameterId parameter =
+            with_place(one.place, [&] { return design_.model.independent_parameter(one.name); });
+        wanted_.sensitivities.emplace_back(parameter, reader_.positive(design_.model, one));
+    });
 }
 
 void WantedReader::read_yield(const TomlEntry& item) {
@@ -85,8 +70,23 @@ void WantedReader::read_importance(const TomlEntry& item) {
 }
 
 void WantedReader::read(const TomlEntry& entry) {
-    reader_.each_of(entry, {"value", "class", "trip_time", "reset", "clear", "sensitivity", "yield", "importance"},
-                    [&](const TomlEntry& item) { read_item(item); });
+    constexpr GrazingOutcome outcomes[] = {GrazingOutcome::lost, GrazingOutcome::persists, GrazingOutcome::folds};
+    reader_.read_keys(entry, {{"value", [&](const TomlEntry& item) { read_value(item); }},
+                              {"class",
+                               [&](const TomlEntry& item) {
+                                   wanted_.outcome = outcomes[reader_.choice(item, {"trips", "persists", "folds"})];
+                               }},
+                              {"trip_time", [&](const TomlEntry& item) { read_trip_time(item); }},
+                              {"reset",
+                               [&](const TomlEntry& item) {
+                                   std::tie(wanted_.least_reset, wanted_.greatest_reset) =
+                                       reader_.range(design_.model, item);
+                                   wanted_.reset_place = reader_.toml().place(*item.node);
+                               }},
+                              {"clear", reader_.into(wanted_.clear, design_.model, positive_number)},
+                              {"sensitivity", [&](const TomlEntry& item) { read_sensitivity(item); }},
+                              {"yield", [&](const TomlEntry& item) { read_yield(item); }},
+                              {"importance", [&](const TomlEntry& item) { read_importance(item); }}});
     if (const auto& yield = wanted_.yield_place; wanted_.least_yield && !design_.least_usable())
         throw InputError(yield, "a yield is wanted, and nothing says which trip values will do",
                          "give yield.within = [A, B], or wanted.value = [A, B]");

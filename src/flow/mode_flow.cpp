@@ -1,6 +1,5 @@
 #include "graze/flow/mode_flow.hpp"
 
-#include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 
 #include <algorithm>

@@ -19,9 +19,7 @@ namespace {
 /// Returns a symbol in the model's graph whose name the model does not use.
 Expression new_symbol(Model& model, const std::string& base) {
     std::string name = base;
-    const auto is_definition = [&](const Definition& definition) { return definition.name == name; };
-    while (model.find_state(name) || model.find_parameter(name) ||
-           std::any_of(model.definitions.begin(), model.definitions.end(), is_definition))
+    while (model.find_state(name) || model.find_parameter(name) || find_named(model.definitions, name))
         name += '_';
     return model.symbol(name);
 }

@@ -30,13 +30,9 @@ Eigen::VectorXd active_part(const std::vector<std::size_t>& active, const Eigen:
     return result;
 }
 
-std::vector<double> list_of(const Eigen::VectorXd& vector) {
-    return {vector.begin(), vector.end()};
-}
-
 /// Returns the eigenvalues except the smallest, which is the zero eigenvalue of the projection.
 std::vector<std::complex<double>> multipliers_of(const CycleMap& map) {
-    const Eigen::Map<const Eigen::VectorXd> scales(map.scales.data(), index(map.scales.size()));
+    const Eigen::Map<const Eigen::VectorXd> scales = vector_of(map.scales);
     const Eigen::MatrixXd scaled = scales.cwiseInverse().asDiagonal() * matrix_of(map) * scales.asDiagonal();
     const Eigen::VectorXcd values = eigenvalues_or_nan(scaled);
     std::vector<std::complex<double>> result(values.begin(), values.end());
@@ -52,7 +48,7 @@ std::vector<std::complex<double>> multipliers_of(const CycleMap& map) {
 void add_parameter(CycleMap& map, const ReturnMap& back, double explicit_rate) {
     constexpr double singular = 1e-9;
     const Eigen::MatrixXd matrix = matrix_of(map);
-    const Eigen::Map<const Eigen::VectorXd> scales(map.scales.data(), index(map.scales.size()));
+    const Eigen::Map<const Eigen::VectorXd> scales = vector_of(map.scales);
     const Eigen::MatrixXd system = Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()) -
                                    Eigen::MatrixXd(scales.cwiseInverse().asDiagonal() * matrix * scales.asDiagonal());
     const FullLU<double> factored(system);
@@ -60,9 +56,8 @@ void add_parameter(CycleMap& map, const ReturnMap& back, double explicit_rate) {
         return;
     const Eigen::VectorXd steady =
         factored.solve(active_part(map.active, back.parameter).cwiseQuotient(scales)).cwiseProduct(scales);
-    map.steady = list_of(steady);
-    map.clearance_rate =
-        Eigen::Map<const Eigen::VectorXd>(map.gradient.data(), steady.size()).dot(steady) + explicit_rate;
+    map.steady = numbers_of(steady);
+    map.clearance_rate = vector_of(map.gradient).dot(steady) + explicit_rate;
 }
 
 /// Sets the next order of the cycle map. After an impact the shift is of order s, so its square counts around the
@@ -70,14 +65,14 @@ void add_parameter(CycleMap& map, const ReturnMap& back, double explicit_rate) {
 void add_next_order(CycleMap& map, const OrbitEquations& equations, const OrbitEvaluation& at, const ReturnMap& back,
                     const TouchFunctions& functions) {
     const Eigen::Index n = back.matrix.rows();
-    const Eigen::Map<const Eigen::VectorXd> first(map.contact.direction.data(), n),
-        second(map.contact.second.data(), n);
+    const Eigen::Map<const Eigen::VectorXd> first = vector_of(map.contact.direction),
+                                            second = vector_of(map.contact.second);
     if (map.contact.order == MapOrder::linear) {
         const Eigen::VectorXd gained = back.matrix * second;
-        map.second = list_of(active_part(map.active, gained));
+        map.second = numbers_of(active_part(map.active, gained));
         map.second_clearance = back.geometry.gradient.head(n).dot(gained);
     } else if (const auto gain = second_return(equations, at, back, functions, first, second)) {
-        map.second = list_of(active_part(map.active, gain->second));
+        map.second = numbers_of(active_part(map.active, gain->second));
         map.second_clearance = gain->value;
     }
 }
@@ -188,12 +183,12 @@ Eigen::MatrixXd matrix_of(const CycleMap& map) {
 
 ScaledCycleMap::ScaledCycleMap(const CycleMap& map) : matrix(matrix_of(map)) {
     const Eigen::Index n = matrix.rows();
-    const Eigen::Map<const Eigen::VectorXd> scales(map.scales.data(), n);
+    const Eigen::Map<const Eigen::VectorXd> scales = vector_of(map.scales);
     for (Eigen::Index i = 0; i < n; ++i)
         for (Eigen::Index j = 0; j < n; ++j)
             matrix(i, j) = matrix(i, j) * scales[j] / scales[i];
-    impact = Eigen::Map<const Eigen::VectorXd>(map.impact.data(), n).cwiseQuotient(scales);
-    gradient = Eigen::Map<const Eigen::VectorXd>(map.gradient.data(), n).cwiseProduct(scales);
+    impact = vector_of(map.impact).cwiseQuotient(scales);
+    gradient = vector_of(map.gradient).cwiseProduct(scales);
 }
 
 std::vector<OrbitTouch> touches_of(const System& system, const Orbit& orbit, const CycleMapOptions& options) {
@@ -226,20 +221,20 @@ CycleMap cycle_map_of(const OrbitEquations& equations, const OrbitEvaluation& at
     map.reason = map.contact.reason;
     const Eigen::Index n = index(system.states());
     map.active = at.active;
-    map.scales = list_of(active_part(map.active, at.scales.head(n)));
+    map.scales = numbers_of(active_part(map.active, at.scales.head(n)));
     for (const std::size_t i : map.active)
         for (const std::size_t j : map.active)
             map.matrix.push_back(back.matrix(index(i), index(j)));
-    map.gradient = list_of(active_part(map.active, back.geometry.gradient.head(n)));
+    map.gradient = numbers_of(active_part(map.active, back.geometry.gradient.head(n)));
     map.multipliers = multipliers_of(map);
     if (free)
         add_parameter(map, back, back.geometry.gradient[n + index(equations.free()[*free].place())]);
     if (!map.contact.exists())
         return map;
-    const Eigen::Map<const Eigen::VectorXd> gained(map.contact.direction.data(), n);
+    const Eigen::Map<const Eigen::VectorXd> gained = vector_of(map.contact.direction);
     const TouchGeometry& here = back.geometry;
     const Eigen::VectorXd shift = here.field * (here.rate_gradient.head(n).dot(gained) / here.acceleration);
-    map.impact = list_of(active_part(map.active, gained - shift));
+    map.impact = numbers_of(active_part(map.active, gained - shift));
     if (next_order && !map.contact.second.empty() && !touch.at_end)
         add_next_order(map, equations, at, back, functions);
     return map;
@@ -279,13 +274,12 @@ std::vector<double> CycleMap::image(std::span<const double> state, double cleara
         !std::ranges::all_of(state, [](double one) { return std::isfinite(one); }))
         throw InputError(fmt::format("{} states and the clearance {} do not fit the map", state.size(), clearance),
                          fmt::format("give {} finite numbers and one", active.size()));
-    const Eigen::Index n = index(active.size());
-    const Eigen::Map<const Eigen::VectorXd> x(state.data(), n), g(gradient.data(), n), b(impact.data(), n);
+    const Eigen::Map<const Eigen::VectorXd> x = vector_of(state), g = vector_of(gradient), b = vector_of(impact);
     const double depth = std::max(0.0, -(clearance + g.dot(x)));
     Eigen::VectorXd after = matrix_of(*this) * (x + b * contact.by_depth(depth));
     if (!second.empty())
-        after += Eigen::Map<const Eigen::VectorXd>(second.data(), n) * contact.second_by_depth(depth);
-    return list_of(after);
+        after += vector_of(second) * contact.second_by_depth(depth);
+    return numbers_of(after);
 }
 
 bool CycleMap::is_at_touch(double time, double period) const {
@@ -303,8 +297,8 @@ std::vector<double> CycleMap::projections(std::size_t count) const {
     if (!exists())
         return result;
     const Eigen::MatrixXd once = matrix_of(*this);
-    const Eigen::Map<const Eigen::VectorXd> g(gradient.data(), once.rows());
-    Eigen::VectorXd vector = Eigen::Map<const Eigen::VectorXd>(impact.data(), once.rows());
+    const Eigen::Map<const Eigen::VectorXd> g = vector_of(gradient);
+    Eigen::VectorXd vector = vector_of(impact);
     for (std::size_t k = 0; k < count; ++k) {
         vector = (once * vector).eval();
         result.push_back(g.dot(vector));
@@ -317,10 +311,10 @@ double CycleMap::sum_of_projections(int sign) const {
     if (!exists() || active.empty())
         return 0;
     const Eigen::Index n = index(active.size());
-    const Eigen::Map<const Eigen::VectorXd> units(scales.data(), n);
+    const Eigen::Map<const Eigen::VectorXd> units = vector_of(scales);
     const Eigen::MatrixXd once = units.cwiseInverse().asDiagonal() * matrix_of(*this) * units.asDiagonal();
-    const Eigen::VectorXd gained = once * Eigen::Map<const Eigen::VectorXd>(impact.data(), n).cwiseQuotient(units),
-                          row = Eigen::Map<const Eigen::VectorXd>(gradient.data(), n).cwiseProduct(units);
+    const Eigen::VectorXd gained = once * vector_of(impact).cwiseQuotient(units),
+                          row = vector_of(gradient).cwiseProduct(units);
     const double size = gained.norm(), steepness = row.norm();
     if (!(size > 0) || !(steepness > 0))
         return 0;

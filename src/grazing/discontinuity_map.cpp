@@ -30,10 +30,6 @@ void require_fitting(const System& system, const TouchState& touch) {
                                      system.states(), system.parameters()));
 }
 
-std::vector<double> list_of(const Eigen::VectorXd& vector, std::size_t count) {
-    return {vector.data(), vector.data() + count};
-}
-
 /// Returns a gain of the states with round-off remnants set to zero.
 std::vector<double> without_remnants(const Eigen::VectorXd& gain, const Eigen::VectorXd& scales) {
     constexpr double remnant = 1e-13;
@@ -70,7 +66,7 @@ std::string problem_of(const System& system, const TouchState& touch, const Touc
 void project_onto_touch(const TouchFunctions& functions, TouchState& touch, TouchGeometry& geometry) {
     constexpr int iterations = 3;
     const Eigen::Index n = index(touch.state.size());
-    const Eigen::Map<const Eigen::VectorXd> scales(touch.scales.data(), n);
+    const Eigen::Map<const Eigen::VectorXd> scales = vector_of(touch.scales);
     for (int iteration = 0; iteration < iterations; ++iteration) {
         Eigen::MatrixXd rows(2, n);
         rows.row(0) = geometry.gradient.head(n).cwiseProduct(scales).transpose();
@@ -119,7 +115,7 @@ DiscontinuityMap local_map(const TouchFunctions& functions, const TouchState& to
     const System& system = functions.system();
     DiscontinuityMap map;
     map.touch = touch;
-    const std::size_t n = system.states();
+    const Eigen::Index n = index(system.states());
     TouchGeometry geometry = functions.at(touch.state, touch.parameters);
     const TouchSizes sizes(touch, geometry);
     if (asked == AskedContacts::rigid_beside)
@@ -129,9 +125,9 @@ DiscontinuityMap local_map(const TouchFunctions& functions, const TouchState& to
         return map;
     project_onto_touch(functions, map.touch, geometry);
     map.acceleration = geometry.acceleration;
-    map.gradient = list_of(geometry.gradient, n);
-    map.rate_gradient = list_of(geometry.rate_gradient, n);
-    map.field = list_of(geometry.field, n);
+    map.gradient = numbers_of(geometry.gradient.head(n));
+    map.rate_gradient = numbers_of(geometry.rate_gradient.head(n));
+    map.field = numbers_of(geometry.field);
     const ContactChain chain = follow_contact(functions, map.touch, geometry, sizes);
     map.contacts = chain.contacts;
     map.restitution = chain.restitution;
@@ -145,7 +141,7 @@ DiscontinuityMap local_map(const TouchFunctions& functions, const TouchState& to
         map.direction = without_remnants(chain.gain, sizes.scales());
         if (chain.contacts.size() == 1 && asked == AskedContacts::all)
             if (const auto second = next_order_of_impact(functions, map.touch, geometry, sizes, chain.contacts.front()))
-                map.second = list_of(*second, n);
+                map.second = numbers_of(*second);
         return map;
     }
     if (chain.modes.size() != 2 || !chain.only_changes_modes) {

@@ -43,12 +43,11 @@ TouchGeometry TouchFunctions::at(std::span<const double> state, std::span<const 
     result.rate = rate[0];
     result.rate_gradient = Eigen::Map<const Eigen::VectorXd>(rate.data() + 1, count);
     result.acceleration = rate.back();
-    result.field = Eigen::Map<const Eigen::VectorXd>(field.data(), index(field.size()));
+    result.field = vector_of(field);
     return result;
 }
 
-TouchSizes::TouchSizes(const TouchState& touch, const TouchGeometry& geometry)
-    : scales_(Eigen::Map<const Eigen::VectorXd>(touch.scales.data(), index(touch.scales.size()))) {
+TouchSizes::TouchSizes(const TouchState& touch, const TouchGeometry& geometry) : scales_(vector_of(touch.scales)) {
     const double size = geometry.gradient.head(scales_.size()).cwiseAbs().dot(scales_);
     const double acceleration = std::abs(geometry.acceleration);
     time_ = acceleration > 0 && size > 0 ? std::sqrt(size / acceleration) : 1;

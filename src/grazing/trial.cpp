@@ -237,8 +237,7 @@ std::vector<MotionBeyond> motions_beyond(const CycleMap& map, const Verdict& ver
 void TrialOptions::validate() const {
     if (cycles == 0 || cycles > 1'000'000)
         throw InputError(fmt::format("{} cycles are not possible", cycles), "give 1 to 1000000");
-    if (!(tolerance >= 1e-16 && tolerance <= 1e-2))
-        throw InputError(fmt::format("the tolerance {} is out of range", tolerance), "give 1e-16 to 1e-2");
+    require_tolerance_in_range(tolerance);
 }
 
 std::string_view name_of(TrialOutcome outcome) {

@@ -84,8 +84,7 @@ std::vector<FittedNumber> numbers_at(const FitRows& rows, const FitPoint& point,
     const std::vector<std::string> names = model.independent_parameters();
     for (const UnknownParameter& unknown : task.parameters) {
         const std::string& name = names[unknown.parameter.place()];
-        add(FittedNumber::Kind::parameter, name, model.parameters[*model.find_parameter(name)].unit,
-            unknown.parameter.place());
+        add(FittedNumber::Kind::parameter, name, model.parameter_unit(name), unknown.parameter.place());
         numbers.back().at_bound = is_at_bound(rows, point, numbers.size() - 1 - states);
     }
     for (const std::size_t output : layout.gains)
@@ -318,16 +317,16 @@ FitChecks check_point(const FitRows& rows, const FitPoint& point, const std::vec
     }
     const double size = std::sqrt(squares / freedom_of(rows.task()));
     checks.allowed_gap = std::max(negligible, part_of_noise * size);
-    std::vector<double> scales;
-    std::vector<bool> held;
-    for (const FittedNumber& number : numbers_at(rows, point, scales))
-        held.push_back(number.at_bound);
     const FitInformation information = information_of(rows, point, known, joint);
+    const Eigen::Index count = information.rows.cols() - 1, first = count - rows.layout.shared();
+    const std::vector<int> bounded = parameters_at_bounds(rows, point);
+    std::vector<bool> held(static_cast<std::size_t>(count));
+    for (const int j : bounded)
+        held[static_cast<std::size_t>(first + j)] = true;
     const FitDecomposition parts = decompose(information, held);
     // At a bound the sum of squares must decrease towards the outside.
-    const Eigen::Index count = information.rows.cols() - 1, first = count - rows.layout.shared();
     bool beyond = true;
-    for (const int j : parameters_at_bounds(rows, point)) {
+    for (const int j : bounded) {
         const UnknownParameter& unknown = rows.task().parameters[static_cast<std::size_t>(j)];
         const double value = point.shared[j] * rows.layout.shared_scale[j];
         const double slope = information.rows.col(first + j).dot(information.rows.col(count));

@@ -42,7 +42,6 @@ private:
     template <class Begin>
     StageReport extend(FitStage together, const Begin& begin) {
         StageReport report;
-        usual_costs_.clear();
         std::size_t done = 0;
         for (std::size_t count = 1; done < most_pieces() && !report.interrupted; count *= 2) {
             for (std::size_t k = 0; k < pieces().size() && !report.interrupted; ++k) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/concatenated.hpp"
 #include "graze/symbolic/function.hpp"
 #include "identify/fit_layout.hpp"
 #include "identify/piece_motion.hpp"
@@ -78,10 +79,9 @@ public:
     /// Values of all independent parameters for a record.
     std::vector<double> parameters(std::size_t record, const Eigen::VectorXd& shared) const;
     /// Inputs of the model's functions: a state, and the parameters of a record.
-    std::vector<double> inputs(std::size_t record, std::vector<double> state, const Eigen::VectorXd& shared) const {
-        const std::vector<double> values = parameters(record, shared);
-        state.insert(state.end(), values.begin(), values.end());
-        return state;
+    std::vector<double> inputs(std::size_t record, const std::vector<double>& state,
+                               const Eigen::VectorXd& shared) const {
+        return concatenated(state, parameters(record, shared));
     }
     const PredictedMotion& motion(const FitPiece& piece, const Eigen::VectorXd& shared, const Eigen::VectorXd& states);
 

@@ -1,5 +1,6 @@
 #include "identify/fit_start.hpp"
 
+#include "base/concatenated.hpp"
 #include "graze/model/model.hpp"
 
 #include <algorithm>
@@ -18,10 +19,10 @@ public:
     }
 
     /// Whether a state violates no barrier of the mode.
-    bool is_admissible(const FitPiece& piece, const std::vector<double>& state, const Eigen::VectorXd& shared) {
+    bool is_admissible(const FitPiece& piece, const std::vector<double>& state, const std::vector<double>& parameters) {
         const System::CompiledMode& compiled = system_.mode(piece.mode);
         values_.resize(compiled.events.outputs());
-        compiled.events.evaluate(rows_->inputs(piece.record, state, shared), values_, work_);
+        compiled.events.evaluate(concatenated(state, parameters), values_, work_);
         for (std::size_t w = 0; w < compiled.watched.size(); ++w)
             if (system_.model().events[compiled.watched[w]].kind == EventKind::barrier && !(values_[w] >= 0))
                 return false;
@@ -33,6 +34,7 @@ public:
                        std::vector<double>& state) {
         const FitTask& task = rows_->task();
         const FitRecord& record = task.records[piece.record];
+        const std::vector<double> parameters = rows_->parameters(piece.record, shared);
         for (const FitRecord::Readings& readings : record.readings) {
             const MeasuredOutput& output = task.outputs[readings.output];
             if (!output.value.is_symbol())
@@ -44,10 +46,10 @@ public:
             if (!free)
                 continue;
             const double before = state[*index];
-            const bool well = is_admissible(piece, state, shared);
+            const bool well = is_admissible(piece, state, parameters);
             state[*index] =
                 (readings.values[time] - rows_->offset(readings.output, shared)) / rows_->gain(readings.output, shared);
-            if (well && !is_admissible(piece, state, shared))
+            if (well && !is_admissible(piece, state, parameters))
                 state[*index] = before;
         }
     }

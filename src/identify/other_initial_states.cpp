@@ -1,5 +1,6 @@
 #include "identify/fit_start.hpp"
 
+#include "base/concatenated.hpp"
 #include "base/linear_systems.hpp"
 #include "graze/model/model.hpp"
 
@@ -73,11 +74,7 @@ private:
         double distance = 0, rate = 0;
     };
 
-    std::vector<double> inputs_of(const std::vector<double>& state) const {
-        std::vector<double> inputs = state;
-        inputs.insert(inputs.end(), parameters_.begin(), parameters_.end());
-        return inputs;
-    }
+    std::vector<double> inputs_of(const std::vector<double>& state) const { return concatenated(state, parameters_); }
     std::vector<double> rates_of(const std::vector<double>& state) {
         std::vector<double> rates(state.size());
         system_.mode(piece_.mode).rates.evaluate(inputs_of(state), rates, work_);

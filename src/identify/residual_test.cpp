@@ -2,7 +2,6 @@
 
 #include "base/linear_systems.hpp"
 #include "base/median.hpp"
-#include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 #include "graze/identify/estimate.hpp"
 #include "record/fourier.hpp"

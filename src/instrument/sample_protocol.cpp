@@ -1,7 +1,7 @@
 #include "instrument/sample_protocol.hpp"
 
+#include "base/read_whole.hpp"
 #include "graze/base/printable.hpp"
-#include "record/text_number.hpp"
 
 #include <fmt/format.h>
 

@@ -137,7 +137,7 @@ std::optional<DrawnDesign> drawn_design(const DesignedDevice& designed, const st
     Table rows({{"quantity", ""}, {"designed", ""}, {"drawn", ""}, {"percent", ""}, {"unit", ""}, {"meaning", ""}});
     add_quantities(rows, designed);
     const Model& model = trip->system.model();
-    const std::string unit = model.parameters[*model.find_parameter(designed.own.control)].unit;
+    const std::string unit = model.parameter_unit(designed.own.control);
     const GrazingOutcome outcome = class_at(*trip).outcome;
     add_row(rows, "trip_value", before ? before->value() : not_a_number, trip->value(), unit,
             fmt::format("of {}, at {} of run '{}'", designed.own.control, trip->label, trip->run));

@@ -95,12 +95,13 @@ private:
 
     /// Name of the part of the front at a point.
     std::string part_at(GridPoint point) const {
-        const auto has = [&](const std::vector<GridBox>& boxes) {
-            return std::any_of(boxes.begin(), boxes.end(), [&](const GridBox& box) { return box.contains(point); });
+        const auto in_any = [&](const std::vector<GridBox>& of_flexure) {
+            return std::any_of(of_flexure.begin(), of_flexure.end(),
+                               [&](const GridBox& box) { return drawing_->has(box, point); });
         };
-        if (has(drawing_->beams()))
+        if (in_any(drawing_->flexure.beams))
             return "a beam";
-        if (has(drawing_->trusses()))
+        if (in_any(drawing_->flexure.trusses))
             return "a truss";
         if (contains(drawing_->mass, point))
             return "the mass";

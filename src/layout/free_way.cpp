@@ -120,7 +120,7 @@ private:
                 if (first && way >= first->way)
                     continue;
                 const GridPoint at{(a.at + b.at) / 2, (low + high) / 2};
-                const bool in_notch = is_in(drawing_->flexure.notch, at);
+                const bool in_notch = drawing_->has(drawing_->flexure.notch, at);
                 first =
                     FreeWay{.way = way,
                             .needed = 0,
@@ -132,15 +132,10 @@ private:
         return first;
     }
 
-    /// Whether a point is in either place of a box of the flexures.
-    bool is_in(const GridBox& box, GridPoint at) const {
-        return drawing_->in_device(box, false).contains(at) || drawing_->in_device(box, true).contains(at);
-    }
-
     /// Within the notches the frame's finger and the mass's lugs are at the same y.
     std::string name_of(const SweptPart& part, bool in_notch, GridPoint at, std::int64_t face) const {
         const FlexureDrawing& flexure = drawing_->flexure;
-        const auto has = [&](const GridBox& box) { return is_in(box, {face, at.y}); };
+        const auto has = [&](const GridBox& box) { return drawing_->has(box, {face, at.y}); };
         if (in_notch && part.share == 0 && has(flexure.finger))
             return "the frame's finger";
         if (in_notch && part.share == 1 && std::any_of(flexure.lugs.begin(), flexure.lugs.end(), has))

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <optional>
 
 namespace graze {
 
@@ -37,23 +36,18 @@ constexpr std::array circuit_parameters{
     ModuleParameter{"e", "", "[0:1]", "coefficient of restitution of the stops", 0, 1, true},
 };
 
-std::optional<std::size_t> find_independent(const Model& model, const char* name) {
-    const auto place = model.find_parameter(name);
-    return place && !model.parameters[*place].expression ? place : std::nullopt;
-}
-
 /// Value of a parameter in SI units.
 double value_of(const Model& model, const ModuleParameter& one) {
-    const auto place = find_independent(model, one.name);
+    const auto place = model.find_independent_parameter(one.name);
     if (!place)
         throw InputError(fmt::format("the model {} has no parameter '{}'", model.name, one.name),
                          "name a model of a switch with m, f0, zeta, area, d, stop and e, as mems-switch-device");
-    const Parameter& parameter = model.parameters[*place];
+    const std::string unit = model.parameter_unit(one.name);
     const auto convert = [&] {
-        return converted(*parameter.value, physical_unit(parameter.unit), physical_unit(one.unit));
+        return converted(model.parameter_values()[place->place()], physical_unit(unit), physical_unit(one.unit));
     };
-    const double value = with_place(
-        {}, convert, fmt::format("'{}' of the model {} has the unit '{}': ", one.name, model.name, parameter.unit));
+    const double value =
+        with_place({}, convert, fmt::format("'{}' of the model {} has the unit '{}': ", one.name, model.name, unit));
     if (!(value > one.least || (one.may_be_least && value == one.least)) || !(value <= one.most && value < infinity))
         throw InputError(fmt::format("'{}' of the model {} is {:.6g} {}", one.name, model.name, value, one.unit),
                          fmt::format("give a value within {}", one.range));
@@ -102,8 +96,9 @@ endmodule
 } // namespace
 
 bool has_verilog_a(const Model& model) {
-    return std::all_of(circuit_parameters.begin(), circuit_parameters.end(),
-                       [&](const ModuleParameter& one) { return find_independent(model, one.name).has_value(); });
+    return std::all_of(circuit_parameters.begin(), circuit_parameters.end(), [&](const ModuleParameter& one) {
+        return model.find_independent_parameter(one.name).has_value();
+    });
 }
 
 std::string verilog_a_text(const Model& model, const std::string& name, const std::string& generator) {
@@ -130,8 +125,8 @@ module {2}(fixed, moving);
     };
     for (const ModuleParameter& one : circuit_parameters)
         declare_value(one, value_of(model, one));
-    declare_value(permittivity,
-                  find_independent(model, permittivity.name) ? value_of(model, permittivity) : vacuum_permittivity);
+    declare_value(permittivity, model.find_independent_parameter(permittivity.name) ? value_of(model, permittivity)
+                                                                                    : vacuum_permittivity);
     declare("hardness", "100", "[1:inf)", "natural frequency on a stop, by f0");
     declare("closed", "0.05*d", "(0:inf)", "m, gap at which the electrodes rest on one another");
     return text + equations;

@@ -6,17 +6,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 namespace graze {
 
 namespace {
-
-std::string unit_of(const Model& model, const std::string& parameter) {
-    const auto place = model.find_parameter(parameter);
-    return place ? model.parameters[*place].unit : "";
-}
 
 void add_times(Table& facts, const WaferYield& yield, const std::string& unit) {
     std::vector<double> times;
@@ -54,8 +48,8 @@ Table wafer_device_table(const WaferYield& yield, const Layout& wafer, const Mod
         columns.push_back({fmt::format("more_{}", field.name), field.unit});
     const std::vector<std::string> names{"m", "f0", "zeta", "area", "d", "stop"};
     for (const std::string& name : names)
-        columns.push_back({name, unit_of(model, name)});
-    columns.push_back({control, unit_of(model, control)});
+        columns.push_back({name, model.parameter_unit(name)});
+    columns.push_back({control, model.parameter_unit(control)});
     columns.push_back({"class", ""});
     columns.push_back({"trip_time", model.time_unit});
     for (const auto& field : device_fields())
@@ -84,7 +78,7 @@ Table wafer_device_table(const WaferYield& yield, const Layout& wafer, const Mod
 
 Table wafer_fact_table(const WaferYield& found, const Model& model, const std::string& control, std::size_t wafers) {
     const Yield& yield = found.yield;
-    const std::string unit = unit_of(model, control);
+    const std::string unit = model.parameter_unit(control);
     Table facts({{"quantity", ""}, {"value", ""}, {"unit", ""}, {"meaning", ""}});
     facts.add("nominal", yield.nominal, unit, fmt::format("{} at which the drawn device trips", control));
     facts.add("wafers", static_cast<double>(wafers), "", "");

@@ -1,5 +1,6 @@
 #include "model/check_symmetry.hpp"
 
+#include "base/concatenated.hpp"
 #include "graze/symbolic/function.hpp"
 #include "graze/symbolic/transform.hpp"
 
@@ -38,13 +39,12 @@ std::vector<std::vector<double>> probes(const Model& model) {
     std::vector<std::vector<double>> result;
     double turn = 0;
     for (const double distance : {1e-6, 1e-4, 1e-2, 1.0}) {
-        std::vector<double> inputs;
+        std::vector<double> state;
         for (const double value : initial) {
             turn += 2.4; // the golden angle: values that do not repeat
-            inputs.push_back(value + distance * std::sin(turn));
+            state.push_back(value + distance * std::sin(turn));
         }
-        inputs.insert(inputs.end(), parameters.begin(), parameters.end());
-        result.push_back(std::move(inputs));
+        result.push_back(concatenated(state, parameters));
     }
     return result;
 }

@@ -15,10 +15,8 @@ namespace graze {
 namespace {
 
 bool is_taken(const Model& model, const std::string& name) {
-    const auto has = [&](const auto& items) {
-        return std::any_of(items.begin(), items.end(), [&](const auto& one) { return one.name == name; });
-    };
-    return has(model.parameters) || has(model.states) || has(model.definitions) || has(model.quantities);
+    return model.find_parameter(name) || model.find_state(name) || find_named(model.definitions, name) ||
+           model.find_quantity(name);
 }
 
 std::string free_name(const Model& model, std::string name) {

@@ -1,10 +1,10 @@
 #include "graze/model/microbeam.hpp"
 
+#include "base/read_whole.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "model/microbeam_quadrature.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -374,9 +374,8 @@ std::optional<MicrobeamOptions> microbeam_member(std::string_view model_name) {
         options.steady = true;
         return options;
     }
-    const auto read = std::from_chars(member.data(), member.data() + member.size(), options.modes);
     // "microbeam-1" is refused: its name is that of the family.
-    const bool number = !member.starts_with('0') && read.ec == std::errc() && read.ptr == member.data() + member.size();
+    const bool number = !member.starts_with('0') && read_whole(member, options.modes);
     return number && options.modes > 1 ? std::optional(options) : std::nullopt;
 }
 

@@ -113,6 +113,11 @@ ParameterId Model::independent_parameter(std::string_view item) const {
     throw InputError(fmt::format("there is no parameter '{}'", item), name_remedy(item, independent_parameters()));
 }
 
+std::string Model::parameter_unit(std::string_view name) const {
+    const auto place = find_parameter(name);
+    return place ? parameters[*place].unit : "";
+}
+
 const Transition* Model::find_transition(std::size_t mode, std::size_t event) const {
     const auto found = std::find_if(transitions.begin(), transitions.end(),
                                     [&](const Transition& t) { return t.mode == mode && t.event == event; });

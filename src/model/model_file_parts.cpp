@@ -67,15 +67,10 @@ std::vector<Condition> ModelParts::conditions(const TomlEntry& entry) {
 }
 
 void ModelParts::read_parts(const TomlEntry& entry, std::initializer_list<Part> parts) const {
-    const std::vector<TomlEntry> given = reader_.entries(reader_.table(entry), entry.path);
     std::vector<std::string> keys;
     for (const Part& part : parts)
         keys.emplace_back(part.key);
-    Mistakes unknown;
-    for (const TomlEntry& one : given)
-        unknown.attempt([&] { reader_.require_one_of(keys, one, entry.path); });
-    unknown.throw_noted();
-    for (const TomlEntry& one : given)
+    for (const TomlEntry& one : reader_.entries(reader_.table(entry), entry.path, keys))
         std::ranges::find(parts, one.name, &Part::key)->read(one);
 }
 

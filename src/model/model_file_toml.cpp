@@ -41,7 +41,7 @@ std::vector<TomlEntry> TomlReader::entries(const toml::table& table, const std::
 }
 
 std::vector<TomlEntry> TomlReader::entries(const toml::table& table, const std::string& path,
-                                           std::initializer_list<std::string_view> allowed) const {
+                                           const std::vector<std::string>& allowed) const {
     std::vector<TomlEntry> result = entries(table, path);
     Mistakes mistakes;
     for (const TomlEntry& entry : result)
@@ -51,15 +51,10 @@ std::vector<TomlEntry> TomlReader::entries(const toml::table& table, const std::
 }
 
 void TomlReader::require_known(const TomlEntry& entry, const std::string& path,
-                               std::initializer_list<std::string_view> allowed) const {
-    require_one_of({allowed.begin(), allowed.end()}, entry, path);
-}
-
-void TomlReader::require_one_of(const std::vector<std::string>& names, const TomlEntry& entry,
-                                const std::string& path) const {
-    if (std::find(names.begin(), names.end(), entry.name) == names.end())
+                               const std::vector<std::string>& allowed) const {
+    if (std::find(allowed.begin(), allowed.end(), entry.name) == allowed.end())
         throw InputError(entry.place, fmt::format("unknown key '{}'{}", entry.name, path.empty() ? "" : " in " + path),
-                         name_remedy(entry.name, names));
+                         name_remedy(entry.name, allowed));
 }
 
 const toml::table& TomlReader::table(const TomlEntry& entry) const {

@@ -9,7 +9,6 @@
 #define TOML_MAX_NESTED_VALUES 64
 #include <toml++/toml.h>
 
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,12 +37,10 @@ public:
     /// Returns the entries in the order of the file. @param allowed if given, the only keys that may occur
     std::vector<TomlEntry> entries(const toml::table& table, const std::string& path) const;
     std::vector<TomlEntry> entries(const toml::table& table, const std::string& path,
-                                   std::initializer_list<std::string_view> allowed) const;
+                                   const std::vector<std::string>& allowed) const;
 
     /// @param path of the table with the entry. @throws InputError for a key that is not allowed
-    void require_known(const TomlEntry& entry, const std::string& path,
-                       std::initializer_list<std::string_view> allowed) const;
-    void require_one_of(const std::vector<std::string>& names, const TomlEntry& entry, const std::string& path) const;
+    void require_known(const TomlEntry& entry, const std::string& path, const std::vector<std::string>& allowed) const;
 
     const toml::table& table(const TomlEntry& entry) const;
     /// Returns the elements of a list, with paths such as "modes.flight.watch.1".

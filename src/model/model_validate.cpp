@@ -239,8 +239,7 @@ private:
     [[noreturn]] void fail_symbol(const ModelExpression& item, const std::string& name) const {
         const Place place = places_.of_name(item.path, name);
         const bool is_state = model_.find_state(name).has_value();
-        const bool is_definition = std::any_of(model_.definitions.begin(), model_.definitions.end(),
-                                               [&](const Definition& definition) { return definition.name == name; });
+        const bool is_definition = find_named(model_.definitions, name).has_value();
         if (is_state || is_definition)
             throw InputError(
                 place, fmt::format("{} uses the {} '{}'", item.path, is_state ? "state" : "definition", name),

@@ -62,13 +62,10 @@ private:
 /// Returns the sections in the order in which they are tried: phase sections first, the preferred one first among them.
 std::vector<std::size_t> candidates(const Model& model, const std::string& preferred) {
     std::vector<std::size_t> result;
-    const auto add = [&](bool phase, bool named) {
+    for (const auto& [phase, named] : {std::pair(true, true), {true, false}, {false, true}, {false, false}})
         for (std::size_t s = 0; s < model.sections.size(); ++s)
             if (model.sections[s].state.has_value() == phase && (model.sections[s].name == preferred) == named)
                 result.push_back(s);
-    };
-    for (const auto& [phase, named] : {std::pair(true, true), {true, false}, {false, true}, {false, false}})
-        add(phase, named);
     return result;
 }
 

@@ -65,12 +65,20 @@ void extract_period(const FollowedMotion& motion, double duration, Orbit& orbit)
     }
 }
 
-std::vector<Probe> probes_of(const Model& model, const Signature& signature) {
-    std::vector<Probe> probes;
+/// Returns the sections at which segments of a signature end, each once, in the order of the model.
+std::vector<std::size_t> sections_of(const Model& model, const Signature& signature) {
+    std::vector<std::size_t> sections;
     for (std::size_t s = 0; s < model.sections.size(); ++s)
         if (std::ranges::any_of(signature,
                                 [&](const Segment& one) { return one.end == SegmentEnd::section && one.index == s; }))
-            probes.push_back(section_probe(model, model.sections[s].name));
+            sections.push_back(s);
+    return sections;
+}
+
+std::vector<Probe> probes_of(const Model& model, const Signature& signature) {
+    std::vector<Probe> probes;
+    for (const std::size_t section : sections_of(model, signature))
+        probes.push_back(section_probe(model, model.sections[section].name));
     return probes;
 }
 
@@ -79,15 +87,9 @@ class SignatureSearch : public Observer {
 public:
     SignatureSearch(const System& system, const Signature& wanted, const OrbitOptions& options,
                     const Simulation& simulation, const SignatureSearchOptions& search)
-        : system_(system), wanted_(&wanted), options_(options), simulation_(simulation), search_(&search) {
-        const Model& model = system.model();
-        for (std::size_t s = 0; s < model.sections.size(); ++s)
-            for (const Segment& one : wanted)
-                if (one.end == SegmentEnd::section && one.index == s) {
-                    section_of_probe_.push_back(s);
-                    break;
-                }
-        entries_.push_back({0, {}, model.initial_state()});
+        : system_(system), wanted_(&wanted), options_(options), simulation_(simulation), search_(&search),
+          section_of_probe_(sections_of(system.model(), wanted)) {
+        entries_.push_back({0, {}, system.model().initial_state()});
     }
 
     void step(const Step& step) override {

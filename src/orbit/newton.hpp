@@ -9,6 +9,8 @@ namespace graze {
 SimulationOptions integration(double tolerance);
 /// @throws InputError unless Newton's method can reach the accuracy: 1e-15 .. 1e-2
 void require_accuracy(double accuracy);
+/// @throws InputError unless integration can keep the relative error of each step: 1e-16 .. 1e-2
+void require_tolerance_in_range(double tolerance);
 /// Solves equations without free parameters by damped Newton's method.
 /// @param at set to the evaluation at the last iterate; its `unknowns` are empty if the equations are undefined there
 OrbitOutcome solve_equations(OrbitEquations& equations, Eigen::VectorXd& unknowns, const OrbitOptions& options,

@@ -1,5 +1,6 @@
 #include "graze/orbit/orbit_file.hpp"
 
+#include "base/read_whole.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/name_list.hpp"
 #include "graze/base/text_file.hpp"
@@ -10,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -132,9 +132,7 @@ private:
     }
     double number_of(const Cell& cell, int line) const {
         double value = 0;
-        const char* last = cell.text.data() + cell.text.size();
-        const auto [end, error] = std::from_chars(cell.text.data(), last, value);
-        if (error != std::errc() || end != last || !std::isfinite(value))
+        if (!read_whole(cell.text, value) || !std::isfinite(value))
             fail(line, cell.column, fmt::format("'{}' is not a number", cell.text), "give a finite number");
         return value;
     }

@@ -64,7 +64,7 @@ std::vector<std::size_t> Shooting::split(const Orbit& orbit) {
         note_jump(s, state);
     }
     const std::vector<double> chosen = sizes.choose(ends().periods(), orbit_scales().coupling(), orbit_scales().arcs());
-    const Eigen::Map<const Eigen::VectorXd> units(chosen.data(), index(chosen.size()));
+    const Eigen::Map<const Eigen::VectorXd> units = vector_of(chosen);
     std::vector<std::size_t> counts;
     for (const Eigen::MatrixXd& one : derivatives) {
         std::size_t count = 1;

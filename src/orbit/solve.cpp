@@ -84,6 +84,11 @@ void require_accuracy(double accuracy) {
         throw InputError(fmt::format("the accuracy {} is out of range", accuracy), "choose from 1e-15 to 1e-2");
 }
 
+void require_tolerance_in_range(double tolerance) {
+    if (!(tolerance >= smallest_tolerance && tolerance <= largest_tolerance))
+        throw InputError(fmt::format("the tolerance {} is out of range", tolerance), "give 1e-16 to 1e-2");
+}
+
 void OrbitOptions::validate() const {
     if (!(tolerance >= smallest_tolerance && tolerance <= largest_tolerance))
         throw InputError(fmt::format("the tolerance {} is out of range", tolerance),

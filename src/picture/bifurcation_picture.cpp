@@ -69,8 +69,7 @@ void share_axes(Figure& figure) {
                 extents[panel.y_label].add(point.y);
     constexpr double margin = 0.04;
     for (FigurePanel& panel : figure.panels)
-        if (const Extent& y = extents[panel.y_label];
-            !is_constant(y.least, y.greatest) && !panel.y_range && !panel.logarithmic_y)
+        if (const Extent& y = extents[panel.y_label]; !y.is_constant() && !panel.y_range && !panel.logarithmic_y)
             panel.y_range = std::pair(y.least - margin * y.span(), y.greatest + margin * y.span());
 }
 

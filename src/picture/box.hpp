@@ -40,6 +40,11 @@ struct Extent {
         greatest = std::max(greatest, value);
     }
     double span() const { return std::max(greatest - least, 0.0); }
+    /// Whether the values are equal up to round-off, or there is none.
+    bool is_constant() const {
+        constexpr double resolved = 1e-9;
+        return !(span() > resolved * std::max(std::abs(least), std::abs(greatest)));
+    }
 };
 
 /// The point at a fraction of the way from one point to another.

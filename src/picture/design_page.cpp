@@ -30,7 +30,7 @@ public:
     Page(const Design& design, const TripPoint& trip, const DesignReport& report)
         : design_(design), trip_(trip), report_(report) {
         const Model& model = trip.system.model();
-        unit_ = model.parameters[*model.find_parameter(design.control)].unit;
+        unit_ = model.parameter_unit(design.control);
         time_unit_ = model.time_unit;
     }
 

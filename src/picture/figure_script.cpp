@@ -298,11 +298,13 @@ private:
         return text;
     }
 
-    static Polyline on_panel(const Polyline& line, const PanelLayout& layout) {
-        Polyline placed;
-        for (const PlanePoint& place : line)
-            placed.push_back(off_page(place, layout));
-        return placed;
+    /// The line with each point mapped by `on_page` or `off_page`.
+    static Polyline mapped(const Polyline& line, PlanePoint (&map)(const PlanePoint&, const PanelLayout&),
+                           const PanelLayout& layout) {
+        Polyline result;
+        for (const PlanePoint& point : line)
+            result.push_back(map(point, layout));
+        return result;
     }
 
     /// Data of a line. Dashes are computed here rather than by gnuplot, so that dashes of coinciding lines coincide.
@@ -310,16 +312,10 @@ private:
         if (style == FigureSeries::Style::line)
             return points_text(line);
         std::string text;
-        for (const Polyline& dash : dashes_of(page_line(line, layout), dash_pattern(style, stroke()), layout.frame))
-            text += points_text(on_panel(dash, layout)) + '\n';
+        for (const Polyline& dash :
+             dashes_of(mapped(line, on_page, layout), dash_pattern(style, stroke()), layout.frame))
+            text += points_text(mapped(dash, off_page, layout)) + '\n';
         return text;
-    }
-
-    static Polyline page_line(const Polyline& line, const PanelLayout& layout) {
-        Polyline placed;
-        for (const PlanePoint& point : line)
-            placed.push_back(on_page(point, layout));
-        return placed;
     }
 
     /// The parts of a series between points that cannot be drawn.
@@ -339,8 +335,8 @@ private:
         const double start = first + later * static_cast<double>(series.colour % 6);
         std::string text;
         for (const Polyline& piece : pieces_of(series, panel))
-            text +=
-                points_text(on_panel(spread_along(page_line(piece, layout), distance, start, layout.frame), layout));
+            text += points_text(
+                mapped(spread_along(mapped(piece, on_page, layout), distance, start, layout.frame), off_page, layout));
         return text;
     }
 

@@ -125,11 +125,10 @@ std::vector<DotStroke> dot_strokes(std::span<const InterleavedDot> dots, const P
                seen[next].y - seen[next - 1].y < joining_distance * width);
         const double x = sum / static_cast<double>(next - first);
         const std::uint64_t place = lowest.column() * 1'000'003 + static_cast<std::uint64_t>(lowest.y / 2.4);
-        constexpr std::uint64_t increment = 0x9e3779b97f4a7c15u; // that mixed() adds
         strokes.push_back({{across(x - slant), up(lowest.y - reach)},
                            {across(x + slant), up(seen[next - 1].y + reach)},
                            lowest.series,
-                           mixed(place - increment) % stroke_layers});
+                           scrambled(place) % stroke_layers});
     }
     return strokes;
 }

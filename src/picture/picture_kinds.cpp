@@ -116,7 +116,7 @@ void drop_constant_panels(Figure& figure) {
     std::set<std::string> all, kept;
     for (const FigurePanel& panel : figure.panels) {
         all.insert(panel.y_label);
-        if (const Extent& range = extents[panel.y_label]; !is_constant(range.least, range.greatest))
+        if (!extents[panel.y_label].is_constant())
             kept.insert(panel.y_label);
     }
     if (kept.empty() || kept.size() == all.size())
@@ -133,11 +133,6 @@ void drop_constant_panels(Figure& figure) {
         panels.push_back(std::move(panel));
     }
     figure.panels = std::move(panels);
-}
-
-bool is_constant(double least, double greatest) {
-    constexpr double resolved = 1e-9;
-    return !(greatest - least > resolved * std::max(std::abs(least), std::abs(greatest)));
 }
 
 std::vector<double> samples_of(const PointRecord& point, const StoredRun& run, const std::string& value,

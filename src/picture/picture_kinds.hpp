@@ -26,8 +26,6 @@ std::vector<std::string> row_samplings(const StoredRun& run);
 std::vector<std::string> shown_points(const StudyPicture& picture, const StoredRun& run);
 /// The samplings that the picture chooses, or all.
 std::vector<std::string> shown_samplings(const StudyPicture& picture, const StoredRun& run);
-/// True when values within these limits differ by no more than rounding errors.
-bool is_constant(double least, double greatest);
 /// The letter of a panel: (a) to (z), then (aa) and so on.
 std::string panel_letter(std::size_t index);
 /// A panel without series, with the ranges and scales of the picture.

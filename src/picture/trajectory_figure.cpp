@@ -61,14 +61,11 @@ private:
     }
 
     std::vector<std::size_t> shown_histories() const {
-        constexpr double resolved = 1e-9; // smaller relative ranges are drawn as constants
         const MotionPanelChoice& contents = recorder_->contents();
         std::vector<std::size_t> shown;
-        for (const std::size_t column : contents.histories) {
-            const Extent& range = ranges_[1 + column];
-            if (contents.chosen || range.span() > resolved * std::max(std::abs(range.least), std::abs(range.greatest)))
+        for (const std::size_t column : contents.histories)
+            if (contents.chosen || !ranges_[1 + column].is_constant())
                 shown.push_back(column);
-        }
         return shown.empty() ? contents.histories : shown;
     }
 

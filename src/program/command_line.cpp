@@ -1,5 +1,6 @@
 #include "program/command_line.hpp"
 
+#include "base/read_whole.hpp"
 #include "graze/base/name_list.hpp"
 #include "program/values.hpp"
 
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <sstream>
 
 namespace graze {
@@ -146,9 +146,7 @@ CLI::Validator whole_number(long least, long most) {
     return CLI::Validator(
         [=](std::string& text) {
             long value = 0;
-            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-            const bool whole = error == std::errc() && end == text.data() + text.size();
-            return whole && value >= least && value <= most
+            return read_whole(text, value) && value >= least && value <= most
                        ? std::string()
                        : fmt::format("'{}' is not a whole number from {} to {}", text, least, most);
         },
@@ -218,7 +216,7 @@ void CommandOptions::table(OutputArguments& output) {
 void CommandOptions::picture(std::string& plot, std::string& data, const std::string& text) {
     in("Picture");
     add("--plot FILE", plot, text);
-    add("--data FILE", data, "Keep the data and commands of the picture; `gnuplot FILE` draws it again after changes");
+    add("--data FILE", data, kept_data_text);
 }
 
 void CommandOptions::style(StyleArguments& style) {
@@ -234,6 +232,10 @@ void CommandOptions::seed(std::size_t& seed, const std::string& text) {
 
 void CommandOptions::jobs(int& jobs) {
     add("--jobs N", jobs, "Number of threads (one for each core); results do not depend on it", whole_number(1, 1024));
+}
+
+void CommandOptions::progress(bool& shown) {
+    add("--progress", shown, "Show progress even if standard error is no terminal");
 }
 
 CommandLine::CommandLine() {

@@ -26,6 +26,10 @@ CLI::Validator number_between(double least, double most);
 /// Accepts only these words.
 CLI::Validator one_of(const std::vector<std::string>& words);
 
+/// What `--data` does.
+inline constexpr const char* kept_data_text =
+    "Keep the data and commands of the picture; `gnuplot FILE` draws it again after changes";
+
 /// Declares the options of one command, in the order of its help.
 class CommandOptions {
 public:
@@ -70,6 +74,7 @@ public:
     void style(StyleArguments& style);
     void seed(std::size_t& seed, const std::string& text);
     void jobs(int& jobs);
+    void progress(bool& shown);
 
 private:
     CLI::App* command_;

@@ -12,7 +12,6 @@
 #include "program/interrupt.hpp"
 #include "program/kept_inputs.hpp"
 #include "program/output_file.hpp"
-#include "program/process.hpp"
 
 #include <fmt/format.h>
 

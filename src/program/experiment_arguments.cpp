@@ -98,7 +98,7 @@ void declare_acquire(CommandLine& line) {
     options.in("Output");
     options.add("--output FOLDER", acquire.folder, "Folder of the records (the name of the experiment)");
     options.add("--dry-run", acquire.dry_run, "Check the experiment and print its levels; send nothing");
-    options.add("--progress", acquire.progress, "Show progress even if standard error is no terminal");
+    options.progress(acquire.progress);
     options.in("Picture during the experiment");
     options.add("--live FILE", acquire.live,
                 "Draw stroboscopic sections of the records over the amplitude: svg, png or pdf");

@@ -1,3 +1,4 @@
+#include "base/enumerator_name.hpp"
 #include "graze/branch/special_point.hpp"
 #include "graze/results/hdf5.hpp"
 #include "graze/results/name_advice.hpp"
@@ -49,10 +50,7 @@ void require_selection(const ResultTableRequest& request, const ResultFile& file
                              name_advice(word, there, "leave it out"));
     };
     const auto is_label = [](const std::string& word) {
-        for (int i = 0; i <= static_cast<int>(Label::failed); ++i)
-            if (word == name_of(static_cast<Label>(i)))
-                return true;
-        return point_type(word).has_value();
+        return enumerator_named(word, Label::failed) || point_type(word);
     };
     if (!request.label.empty() && !is_label(request.label))
         require("--label", request.label, words_in(file, {"label"}, {"label", "type"}), "label");

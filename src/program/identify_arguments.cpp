@@ -97,7 +97,7 @@ void declare_fit(CommandOptions& options, IdentifyArguments& identify) {
                 "a fit with poor guesses");
     options.add("--time-limit S", identify.time_limit, "End after S seconds and report what does not match (no limit)",
                 positive_number());
-    options.add("--progress", identify.progress, "Show progress even if standard error is no terminal");
+    options.progress(identify.progress);
     options.add("--table TABLE", identify.table, "numbers (default), outputs, correlations or readings",
                 one_of(fit_table_names()));
     options.add("--save FILE", identify.save, "Write the fitted values to FILE, for --set @FILE and --from @FILE");

@@ -86,7 +86,7 @@ int ladder_command(const LadderArguments& arguments, const Console& console) {
     const StoredLadder found = stored_ladder(file, request);
     const Model& model = found.first.run.model;
     const std::string parameter = model.independent_parameters()[found.parameter.place()];
-    const std::string unit = model.parameters[*model.find_parameter(parameter)].unit;
+    const std::string unit = model.parameter_unit(parameter);
     deliver(ladder_table(found, parameter, unit), arguments.output, ladder_heading(file, found), console);
     const std::size_t grazings = found.ladder.grazings().size();
     if (found.interrupted) {

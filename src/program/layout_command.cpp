@@ -22,19 +22,15 @@ namespace graze {
 
 namespace {
 
-void add_row(Table& table, const std::string& cell, const std::string& what, double value, const char* unit) {
-    table.add(cell, what, value, unit);
-}
-
 void add_measures(Table& table, const DrawnDevice& device, const DeviceFile& file) {
     const DeviceMeasures measures = measures_of(device.drawing);
-    const auto length = [&](const char* what, double value) { add_row(table, device.cell, what, value, "um"); };
-    const auto area = [&](const char* what, double value) { add_row(table, device.cell, what, value, "um^2"); };
+    const auto length = [&](const char* what, double value) { table.add(device.cell, what, value, "um"); };
+    const auto area = [&](const char* what, double value) { table.add(device.cell, what, value, "um^2"); };
     length("gap", measures.gap);
     length("facing length", measures.facing_length);
     length("stop gap", measures.stop_gap);
     length("stop length", measures.stop_length);
-    add_row(table, device.cell, "beams", static_cast<double>(measures.beams), "");
+    table.add(device.cell, "beams", static_cast<double>(measures.beams), "");
     length("beam width", measures.beam_width);
     length("beam length", measures.beam_length);
     length("beam spacing", measures.beam_spacing);
@@ -54,11 +50,11 @@ Table layout_table(const Layout& layout, const DeviceFile& file) {
     for (const DrawnDevice& device : layout.devices)
         add_measures(table, device, file);
     for (std::size_t i = 0; i < layout.sites.size(); ++i)
-        add_row(table, layout.devices[layout.sites[i]].cell, fmt::format("direction of device {}", i + 1),
-                layout.site_degrees[i], "degrees");
+        table.add(layout.devices[layout.sites[i]].cell, fmt::format("direction of device {}", i + 1),
+                  layout.site_degrees[i], "degrees");
     for (const auto& [layer, area] : areas_of(layout.library, layout.top))
-        add_row(table, layout.top, fmt::format("layer {}/{}: {}", layer.layer, layer.datatype, layer_text(layer)), area,
-                "um^2");
+        table.add(layout.top, fmt::format("layer {}/{}: {}", layer.layer, layer.datatype, layer_text(layer)), area,
+                  "um^2");
     return table;
 }
 

@@ -12,13 +12,10 @@
 #include "program/interrupt.hpp"
 #include "program/kept_inputs.hpp"
 #include "program/output_file.hpp"
-#include "program/process.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <map>
 
 namespace graze {
@@ -41,7 +38,7 @@ void draw_maps(const WaferYield& yield, const DeviceFile& file, const Design& de
                std::size_t wafers, const Console& console, std::vector<std::string>& written) {
     WaferMapLabels labels;
     labels.control = design.control;
-    labels.unit = design.model.parameters[*design.model.find_parameter(design.control)].unit;
+    labels.unit = design.model.parameter_unit(design.control);
     labels.least = design.least_usable();
     labels.greatest = design.greatest_usable();
     labels.title = fmt::format("{}: {} at which each device trips{}", file.name, design.control,

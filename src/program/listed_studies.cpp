@@ -1,6 +1,5 @@
 #include "program/commands.hpp"
 
-#include "base/special_numbers.hpp"
 #include "graze/study/study_catalogue.hpp"
 #include "graze/study/study_keys.hpp"
 #include "program/table.hpp"

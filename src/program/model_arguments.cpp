@@ -98,8 +98,7 @@ void declare_plot(CommandOptions& options, SimulateArguments& simulate) {
              "Axes of phase portraits, a pair for each (a state and its velocity)")
         ->expected(1, -1);
     options.style(simulate.style);
-    options.add("--data,--plot-data FILE", simulate.plot_data,
-                "Keep the data and commands of the picture; `gnuplot FILE` draws it again after changes");
+    options.add("--data,--plot-data FILE", simulate.plot_data, kept_data_text);
 }
 
 void declare_method(CommandOptions& options, SimulateArguments& simulate) {
@@ -110,7 +109,7 @@ void declare_method(CommandOptions& options, SimulateArguments& simulate) {
                 "Largest step in time (unbounded); contacts are found without it");
     options.add("--steps N", simulate.method.step_limit, "End after N steps (100 million)",
                 whole_number(1, 1'000'000'000'000));
-    options.add("--progress", simulate.progress, "Show progress even if standard error is no terminal");
+    options.progress(simulate.progress);
     options.add("--quiet", simulate.quiet, "Report how the trajectory ended only if it broke off");
 }
 
@@ -126,9 +125,7 @@ void declare_simulate(CommandLine& line) {
     options.add("--contact-table", simulate.contacts, ""); // see with_joined_counts
     declare_tables(options, simulate);
     declare_plot(options, simulate);
-    options.output(simulate.output);
-    options.in("Output");
-    options.add("--all", simulate.output.all, "Show all columns of a table, even if they do not fit the terminal");
+    options.table(simulate.output);
     declare_method(options, simulate);
 }
 

@@ -10,8 +10,6 @@
 #include "program/output_file.hpp"
 #include "program/values.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 namespace graze {

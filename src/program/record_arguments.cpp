@@ -91,7 +91,6 @@ void declare_record_command(CommandLine& line) {
     declare_processing(options, record);
     declare_record_tables(options, record);
     options.table(record.output);
-    options.in("Output");
     options.add("--write FILE", record.write,
                 "Write the processed record there instead: HDF5 where the name ends in .h5, otherwise text");
     options.picture(record.plot, record.data, "Draw the table instead, as svg, png or pdf");

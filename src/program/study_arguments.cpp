@@ -78,7 +78,7 @@ void declare_run(CommandLine& line) {
                 "Print a JSON Schema of study files, with which editors complete and check them");
     options.add("--steps", run.steps, "Print a line for each orbit of a branch as it is found");
     options.add("--no-pictures", run.no_pictures, "Compute only; write no pictures and tables");
-    options.add("--progress", run.progress, "Show progress even if standard error is no terminal");
+    options.progress(run.progress);
     options.add("--quiet", run.quiet, "Do not list the runs at the end");
     options.format(run.output);
 }
@@ -145,8 +145,7 @@ void declare_plot_results(CommandLine& line) {
                 "Labels of the vertical axes with their units (made by graze)");
     options.style(plot.style);
     options.add("--output FILE", plot.output, "Picture: .png (default), .svg, .pdf, .eps or, for LaTeX, .tex");
-    options.add("--data FILE", plot.data,
-                "Keep the data and commands of the picture; `gnuplot FILE` draws it again after changes");
+    options.add("--data FILE", plot.data, kept_data_text);
 }
 
 } // namespace

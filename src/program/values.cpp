@@ -1,5 +1,6 @@
 #include "program/values.hpp"
 
+#include "base/read_whole.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/name_list.hpp"
 #include "graze/base/trimmed.hpp"
@@ -13,7 +14,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -228,9 +228,7 @@ std::vector<RequestedQuantity> requested_quantities(const Model& model, const st
 
 std::optional<double> finite_number_in(std::string_view text) {
     double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool whole = error == std::errc() && end == text.data() + text.size();
-    return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
+    return read_whole(text, value) && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
 double number_of_option(const std::string& text, const char* option) {

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <charconv>
 #include <string_view>
-#include <system_error>
 
 namespace graze {
 
@@ -30,13 +28,6 @@ public:
 private:
     char decimal_;
 };
-
-/// Reads a text that is a number as a whole. @return whether it is one
-template <class Number>
-bool read_whole(std::string_view text, Number& value) {
-    const auto [next, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && next == text.data() + text.size();
-}
 
 /// Whether a field is a word for a missing value, such as "NaN", "inf" or "---".
 bool is_word_of_missing(std::string_view field);

@@ -175,15 +175,6 @@ MemberColumn<write, read, Member, Holds> only_if(Holds /*holds*/, const MemberCo
     return {column.kind};
 }
 
-/// The enumerator of this name, of those up to the last one. @return `otherwise` for other names
-template <class Enumeration>
-Enumeration enumerator_named(const std::string& name, Enumeration last, Enumeration otherwise) {
-    for (int i = 0; i <= static_cast<int>(last); ++i)
-        if (name == name_of(static_cast<Enumeration>(i)))
-            return static_cast<Enumeration>(i);
-    return otherwise;
-}
-
 /// Number of columns that a table of a run has of this kind.
 inline std::size_t width_of(const ColumnKind& kind, const RunRecord& run) {
     switch (kind.group) {

@@ -55,7 +55,7 @@ LocatedPoint located_point(const ResultFile& file, const std::string& point, con
                          fmt::format("say whose value follows from the others: {} NAME", parameter_place.file));
     LocatedValue value = located(System(stored.run.model), held, model, candidates, point_place);
     const std::string name = model.independent_parameters()[value.control().place()];
-    const std::string unit = model.parameters[*model.find_parameter(name)].unit;
+    const std::string unit = model.parameter_unit(name);
     return {std::move(stored), std::move(model), held, std::move(value), name, unit};
 }
 

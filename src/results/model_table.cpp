@@ -2,8 +2,6 @@
 
 #include "model/model_words.hpp"
 
-#include <string_view>
-
 namespace graze {
 
 std::vector<double> all_parameter_values(const Model& model) {

@@ -1,5 +1,6 @@
 #include "results/orbit_columns.hpp"
 
+#include "base/enumerator_name.hpp"
 #include "base/special_numbers.hpp"
 
 #include <fmt/format.h>
@@ -156,7 +157,7 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
          [](const Context&, const Record& r, CellWriter& cell) { cell.text(name_of(r.point.solution.outcome)); },
          [](const Context&, Record& r, CellReader& cell) {
              r.point.solution.outcome =
-                 enumerator_named(cell.text(), OrbitOutcome::undefined, OrbitOutcome::not_converged);
+                 enumerator_named(cell.text(), OrbitOutcome::undefined).value_or(OrbitOutcome::not_converged);
          }},
         word_column(shown("detail"), [](auto& r) { return &r.point.detail; }),
         real_column(shown("residual"), [](auto& r) { return &r.point.solution.residual; }),

@@ -1,5 +1,6 @@
 #include "results/point_columns.hpp"
 
+#include "base/enumerator_name.hpp"
 #include "graze/base/input_error.hpp"
 
 #include <fmt/format.h>
@@ -39,7 +40,7 @@ const ColumnsOf<RunRecord, PointRecord>& point_columns() {
         {{"label", Type::text, Unit::none, true},
          [](const Run&, const Point& p, CellWriter& cell) { cell.text(name_of(p.result.label)); },
          [](const Run&, Point& p, CellReader& cell) {
-             p.result.label = enumerator_named(cell.text(), Label::failed, Label::failed);
+             p.result.label = enumerator_named(cell.text(), Label::failed).value_or(Label::failed);
          }},
         only_if(is_periodic, whole_column(shown("period"), // number of returns
                                           [](auto& p) { return &p.result.period; })),
@@ -72,7 +73,7 @@ const ColumnsOf<RunRecord, PointRecord>& point_columns() {
         {{"ending", Type::text, Unit::none, true},
          [](const Run&, const Point& p, CellWriter& cell) { cell.text(name_of(p.result.outcome.ending)); },
          [](const Run&, Point& p, CellReader& cell) {
-             p.result.outcome.ending = enumerator_named(cell.text(), Ending::step_limit, Ending::running);
+             p.result.outcome.ending = enumerator_named(cell.text(), Ending::step_limit).value_or(Ending::running);
          }},
         number_column(shown("ending_time", Unit::time), [](auto& p) { return &p.result.outcome.time; }),
         text_column(kept("detail"), [](auto& p) { return &p.result.outcome.detail; }),

@@ -8,10 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <iterator>
 #include <limits>
 #include <map>
-#include <optional>
 #include <utility>
 #include <variant>
 

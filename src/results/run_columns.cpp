@@ -1,5 +1,6 @@
 #include "results/run_columns.hpp"
 
+#include "base/enumerator_name.hpp"
 #include "results/schema.hpp"
 
 #include <array>
@@ -7,15 +8,8 @@
 namespace graze {
 
 std::string_view name_of(RunStatus status) {
-    switch (status) {
-    case RunStatus::complete:
-        return "complete";
-    case RunStatus::failed:
-        return "failed";
-    case RunStatus::unfinished:
-        break;
-    }
-    return "unfinished";
+    constexpr std::string_view names[] = {"unfinished", "complete", "failed"};
+    return enumerator_name(names, status, "unfinished");
 }
 
 namespace {
@@ -65,7 +59,7 @@ const ColumnsOf<NoContext, RunRecord>& run_columns() {
         {{"status", Type::text},
          [](const NoContext&, const Run& run, CellWriter& cell) { cell.text(name_of(run.status)); },
          [](const NoContext&, Run& run, CellReader& cell) {
-             run.status = enumerator_named(cell.text(), RunStatus::failed, RunStatus::unfinished);
+             run.status = enumerator_named(cell.text(), RunStatus::failed).value_or(RunStatus::unfinished);
          }},
         whole_column(kept("points"), [](auto& run) { return &run.points; }),
         text_column(kept("model_name"), [](auto& run) { return &run.model_name; }),

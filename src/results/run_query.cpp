@@ -15,7 +15,7 @@ bool has_column(const std::vector<RunColumn>& columns, const std::string& name) 
 }
 
 bool has(const std::vector<ResultColumn>& columns, const std::string& name) {
-    return std::any_of(columns.begin(), columns.end(), [&](const ResultColumn& column) { return column.name == name; });
+    return std::ranges::find(columns, name, &ResultColumn::name) != columns.end();
 }
 
 } // namespace
@@ -26,8 +26,7 @@ std::string RunQuery::column(const std::string& name, bool with_samples) const {
 
 std::string RunQuery::column_of(const std::vector<ResultColumn>& columns, ColumnGroup group,
                                 const std::string& name) const {
-    const auto found =
-        std::find_if(columns.begin(), columns.end(), [&](const ResultColumn& column) { return column.name == name; });
+    const auto found = std::ranges::find(columns, name, &ResultColumn::name);
     return quoted_name(
         found == columns.end() ? name : tables_.names_of(group)[static_cast<std::size_t>(found - columns.begin())]);
 }

@@ -47,7 +47,7 @@ std::vector<RunRecord> branch_runs(const ResultFile& file, const std::vector<std
             known.push_back(run.name);
     std::vector<RunRecord> chosen;
     for (const std::string& name : names.empty() ? known : names) {
-        const auto found = std::find_if(all.begin(), all.end(), [&](const RunRecord& run) { return run.name == name; });
+        const auto found = std::ranges::find(all, name, &RunRecord::name);
         if (found == all.end())
             throw InputError(place, fmt::format("there are no results of a run '{}'", name),
                              name_advice(name, known, no_branches_remedy));

@@ -65,7 +65,7 @@ void add_parameters(Facts& facts, const std::string& run, const Model& model) {
     const std::vector<double> values = model.parameter_values();
     const std::vector<std::string> names = model.independent_parameters();
     for (std::size_t p = 0; p < names.size(); ++p)
-        facts.add("parameter", run, names[p], values[p], model.parameters[*model.find_parameter(names[p])].unit);
+        facts.add("parameter", run, names[p], values[p], model.parameter_unit(names[p]));
 }
 
 void add_settings(Facts& facts, const std::string& run, const std::string& settings, const std::string& file) {

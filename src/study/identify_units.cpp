@@ -157,7 +157,7 @@ void convert_to_model(EstimateRecords& estimates, const StudyRun& run) {
         const auto parameter = run.model.find_independent_parameter(number.name);
         if (!parameter)
             continue;
-        const std::string& unit = run.model.parameters[*run.model.find_parameter(number.name)].unit;
+        const std::string unit = run.model.parameter_unit(number.name);
         const auto* const request = std::get_if<IdentifyRequest>(&run.request);
         const bool ratio = request && std::any_of(request->gives.begin(), request->gives.end(), [&](const auto& one) {
                                return one.second == number.name && is_ratio(one.first);

@@ -60,11 +60,12 @@ public:
     static void read_table(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const Describe& describe) {
         KeyList known;
         describe(known);
+        const std::vector<std::string> names = names_of(known.keys);
         RunKeys keys;
         Mistakes mistakes;
         mistakes.attempt([&] {
             reader.each_of(entry, {}, [&](const TomlEntry& item) {
-                reader.toml().require_one_of(names_of(known.keys), item, entry.path);
+                reader.toml().require_known(item, entry.path, names);
                 keys.emplace(item.name, item);
             });
         });

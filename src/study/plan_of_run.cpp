@@ -1,3 +1,5 @@
+#include "base/concatenated.hpp"
+#include "base/random_number.hpp"
 #include "graze/base/require.hpp"
 #include "graze/study/runner.hpp"
 #include "graze/symbolic/function.hpp"
@@ -10,21 +12,10 @@ namespace graze {
 
 namespace {
 
-/// A pseudorandom number from three numbers (splitmix, Steele, Lea and Flood 2014), so that draws are independent of
-/// order.
-std::uint64_t mixed(std::uint64_t seed, std::uint64_t point, std::uint64_t axis) {
-    const auto mix = [](std::uint64_t x) {
-        x += 0x9e3779b97f4a7c15u;
-        x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-        x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-        return x ^ (x >> 31);
-    };
-    return mix(mix(mix(seed) ^ point) ^ axis);
-}
-
 double drawn(const StudyRun& run, std::size_t axis, std::size_t point) {
     const Variation& variation = run.motion().axes[axis];
-    const double share = static_cast<double>(mixed(run.motion().seed, point, axis) >> 11) * 0x1p-53;
+    const std::uint64_t bits = mixed(mixed(mixed(run.motion().seed) ^ point) ^ axis);
+    const double share = static_cast<double>(bits >> 11) * 0x1p-53; // in [0, 1)
     return variation.offset + (variation.logarithmic ? variation.low * std::pow(variation.high / variation.low, share)
                                                      : variation.low + share * (variation.high - variation.low));
 }
@@ -126,9 +117,7 @@ Plan plan_of(const StudyRun& given, const System& system, const PointRecord* sta
             if (const auto& varied = run.motion().axes[a].state)
                 result.state[*varied] = coordinates[a];
         if (!run.motion().following.empty()) {
-            std::vector<double> inputs = result.state;
-            inputs.insert(inputs.end(), result.parameters.begin(), result.parameters.end());
-            const std::vector<double> values = following(inputs);
+            const std::vector<double> values = following(concatenated(result.state, result.parameters));
             for (std::size_t i = 0; i < values.size(); ++i)
                 result.state[run.motion().following[i].state] = values[i];
         }

@@ -21,7 +21,7 @@ void add_parameters(const StudyRun& run, RunRecord& record) {
     const std::vector<std::string> parameters = run.model.independent_parameters();
     const auto add = [&](std::size_t p) {
         const std::string& name = parameters[p];
-        record.coordinates.push_back({name, run.model.parameters[*run.model.find_parameter(name)].unit});
+        record.coordinates.push_back({name, run.model.parameter_unit(name)});
     };
     std::vector<std::size_t> first;
     if (!parameters.empty())
@@ -72,8 +72,7 @@ RunRecord record_of(const StudyRun& run, const std::string& parent_fingerprint, 
     if (run.is_branch())
         add_parameters(run, record);
     if (run.kind == RunKind::record && !run.record().coordinate.empty())
-        record.coordinates.push_back(
-            {run.record().coordinate, run.model.parameters[*run.model.find_parameter(run.record().coordinate)].unit});
+        record.coordinates.push_back({run.record().coordinate, run.model.parameter_unit(run.record().coordinate)});
     if (run.has_motions())
         for (const Variation& axis : run.motion().axes)
             record.coordinates.push_back({axis.name, axis.unit});

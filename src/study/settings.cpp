@@ -52,7 +52,7 @@ void complete(Variation& axis, const Model& model, const SettingsReader& fields)
         axis.parameter = *parameter;
     else
         axis.state = *state;
-    axis.unit = parameter ? model.parameters[*model.find_parameter(axis.name)].unit : model.states[*state].unit;
+    axis.unit = parameter ? model.parameter_unit(axis.name) : model.states[*state].unit;
     const bool finite = std::all_of(axis.values.begin(), axis.values.end(), [](double x) { return std::isfinite(x); });
     if (!finite || (axis.values.empty() && !(axis.low < axis.high && (!axis.logarithmic || axis.low > 0))))
         fields.fail("vary", "made of finite values");

@@ -1,19 +1,10 @@
 #include "study/settings_fields.hpp"
 
+#include "base/read_whole.hpp"
+
 #include <algorithm>
 
 namespace graze {
-
-namespace {
-
-/// Numbers are read to the last bit, whatever the locale.
-template <class Number>
-bool read_digits(const std::string& text, Number& value) {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && end == text.data() + text.size();
-}
-
-} // namespace
 
 void SettingsReader::fail(std::string_view name, const std::string& wanted) const {
     throw InputError(*place_, fmt::format("the stored settings cannot be read: '{}' is not {}", name, wanted),
@@ -59,7 +50,7 @@ void SettingsReader::read(std::string_view name, const Json& json, double& value
         value = std::numeric_limits<double>::quiet_NaN();
     else if (json.kind == Json::Kind::text && (json.text == "inf" || json.text == "-inf"))
         value = json.text == "inf" ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity();
-    else if (json.kind != Json::Kind::number || !read_digits(json.text, value))
+    else if (json.kind != Json::Kind::number || !read_whole(json.text, value))
         fail(name, "a number");
 }
 
@@ -76,12 +67,12 @@ void SettingsReader::read(std::string_view name, const Json& json, std::string& 
 }
 
 void SettingsReader::read(std::string_view name, const Json& json, std::uint64_t& value) const {
-    if (json.kind != Json::Kind::number || !read_digits(json.text, value))
+    if (json.kind != Json::Kind::number || !read_whole(json.text, value))
         fail(name, "a whole number");
 }
 
 void SettingsReader::read(std::string_view name, const Json& json, int& value) const {
-    if (json.kind != Json::Kind::number || !read_digits(json.text, value))
+    if (json.kind != Json::Kind::number || !read_whole(json.text, value))
         fail(name, "a whole number");
 }
 

@@ -1,12 +1,12 @@
 #include "study/start_point.hpp"
 
+#include "base/read_whole.hpp"
 #include "graze/base/input_error.hpp"
 #include "study/run_record.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -26,8 +26,7 @@ std::vector<double> parameters_of(const RunRecord& run, const PointRecord& point
 /// The number that names a point; none where the name is no number.
 std::optional<std::size_t> number_in(const std::string& name) {
     std::size_t number = 0;
-    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
-    return error == std::errc() && end == name.data() + name.size() ? std::optional(number) : std::nullopt;
+    return read_whole(name, number) ? std::optional(number) : std::nullopt;
 }
 
 } // namespace

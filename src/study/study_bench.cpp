@@ -1,5 +1,6 @@
 #include "study/run_forms.hpp"
 
+#include "base/concatenated.hpp"
 #include "graze/flow/system.hpp"
 #include "graze/symbolic/function.hpp"
 #include "study/key_reader.hpp"
@@ -19,12 +20,8 @@ void require_finite_at_start(const StudyReader& reader, const RecordBench& bench
     std::vector<Expression> values;
     for (const BenchChannel& channel : bench.channels)
         values.push_back(channel.value.value);
-    std::vector<double> inputs = bench.model.initial_state(), found(values.size());
-    const std::vector<double> parameters = bench.model.parameter_values();
-    inputs.insert(inputs.end(), parameters.begin(), parameters.end());
-    const Function function = System(bench.model).function_of(values);
-    std::vector<double> work(function.workspace());
-    function.evaluate(inputs, found, work);
+    const std::vector<double> inputs = concatenated(bench.model.initial_state(), bench.model.parameter_values());
+    const std::vector<double> found = System(bench.model).function_of(values)(inputs);
     std::size_t next = 0;
     reader.each_of(entry, {}, [&](const TomlEntry& item) {
         if (!std::isfinite(found[next++]))

@@ -131,7 +131,7 @@ void StudyReader::read_keys(const TomlEntry& table, const std::vector<std::pair<
     for (const auto& key : keys)
         names.push_back(key.first);
     each_of(table, {}, [&](const TomlEntry& entry) {
-        toml_.require_one_of(names, entry, table.path);
+        toml_.require_known(entry, table.path, names);
         keys[static_cast<std::size_t>(std::ranges::find(names, entry.name) - names.begin())].second(entry);
     });
 }
@@ -192,11 +192,8 @@ void read_variation_table(const StudyReader& reader, const Model& model, const T
     std::size_t points = 0;
     double offset = 0;
     std::optional<std::pair<double, double>> draws;
-    const auto into = [&](std::optional<double>& value) {
-        return [&](const TomlEntry& item) { value = reader.number(model, item); };
-    };
-    reader.read_keys(entry, {{"from", into(from)},
-                             {"to", into(to)},
+    reader.read_keys(entry, {{"from", reader.into(from, model)},
+                             {"to", reader.into(to, model)},
                              {"step", [&](const TomlEntry& item) { step = step_of(reader, model, item); }},
                              {"points", reader.into(points, {2, most_values})},
                              {"scale",
@@ -235,7 +232,7 @@ Variation read_variation(const StudyReader& reader, const Model& model, const To
     variation.name = entry.name;
     if (const auto parameter = model.find_independent_parameter(entry.name)) {
         variation.parameter = *parameter;
-        variation.unit = model.parameters[*model.find_parameter(entry.name)].unit;
+        variation.unit = model.parameter_unit(entry.name);
     } else if (const auto state = model.find_state(entry.name)) {
         variation.state = *state;
         variation.unit = model.states[*state].unit;

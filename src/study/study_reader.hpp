@@ -50,9 +50,9 @@ public:
     }
     /// The same for the entries of a table. @param known the only keys that it may have; none: any key
     template <class Work>
-    void each_of(const TomlEntry& table, std::initializer_list<std::string_view> known, const Work& work) const {
+    void each_of(const TomlEntry& table, const std::vector<std::string>& known, const Work& work) const {
         each(toml_.entries(toml_.table(table), table.path), [&](const TomlEntry& entry) {
-            if (known.size() > 0)
+            if (!known.empty())
                 toml_.require_known(entry, table.path, known);
             work(entry);
         });
@@ -72,6 +72,10 @@ public:
     }
     /// @param model may name parameters in it
     ReadEntry into(double& value, const Model& model = no_model(), const NumberRange& range = any_number) const {
+        return [this, &value, &model, range](const TomlEntry& e) { value = number(model, e, range); };
+    }
+    ReadEntry into(std::optional<double>& value, const Model& model = no_model(),
+                   const NumberRange& range = any_number) const {
         return [this, &value, &model, range](const TomlEntry& e) { value = number(model, e, range); };
     }
     ReadEntry into(std::size_t& value, const CountRange& range) const {

@@ -1,6 +1,7 @@
 // Evidence for labels: motions are followed for longer before they are labelled periodic or chaotic. Results.
 
 #include "sweep/attractor_search.hpp"
+#include "sweep/field_map.hpp"
 
 #include <fmt/format.h>
 
@@ -23,10 +24,8 @@ std::string signature_of(const Model& model, std::span<const std::uint32_t> cont
     std::vector<std::pair<std::string, std::size_t>> parts;
     for (const std::uint32_t code : contacts) {
         const Transition& transition = model.transitions[code / 2];
-        const bool stays = std::ranges::all_of(
-            transition.next, [&](const Alternative& next) { return next.mode && *next.mode == transition.mode; });
         const bool sticking = code % 2 == 1;
-        if (transition.jump == 0 && stays && !sticking)
+        if (!sticking && changes_nothing(transition))
             continue;
         std::string name = transition.label + (sticking ? "(chatter)" : "");
         if (!parts.empty() && parts.back().first == name)

@@ -212,14 +212,15 @@ bool Exponent::is_bounded() const {
 
 double Exponent::error() const {
     const std::size_t count = growth_.size(), half = count / 2;
+    const double all = time();
     // Random error: the mean of ten batches has Student's distribution.
     const double random = student * standard_error();
     // Error that decreases like 1/time, since the vector's length varies between bounds.
-    const double bounded = variation() / time();
+    const double bounded = variation() / all;
     // Error that decreases more slowly, for example where neighbours separate in proportion to time.
     const double drifting = std::abs(growth(0, half) - growth(half, count));
     const double integration =
-        map_->simulation().options().tolerance * integration_errors * static_cast<double>(count) / time();
+        map_->simulation().options().tolerance * integration_errors * static_cast<double>(count) / all;
     return std::max({random, bounded, drifting}) + integration;
 }
 

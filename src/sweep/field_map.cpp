@@ -7,14 +7,13 @@
 
 namespace graze {
 
-namespace {
-
-/// Returns whether a transition has no effect: no jump, and the same mode continues.
 bool changes_nothing(const Transition& transition) {
     return transition.jump == 0 && std::ranges::all_of(transition.next, [&](const Alternative& next) {
                return next.mode && *next.mode == transition.mode;
            });
 }
+
+namespace {
 
 /// Returns whether a state stays zero in all modes and jumps, as far as simplification shows.
 bool vanishes_with(Model& model, std::size_t state, const Expression& symbol) {

@@ -14,6 +14,9 @@ inline constexpr double end_of_growth = 1e150;
 /// Returns element k of a sequence that fills the unit interval evenly.
 double even_place(std::size_t k);
 
+/// Returns whether a transition has no effect: no jump, and the same mode continues.
+bool changes_nothing(const Transition& transition);
+
 /// The vector fields of all modes with their derivatives by the states. Immutable; threads may share it.
 class FieldMap {
 public:

@@ -52,15 +52,11 @@ public:
         require_index(index, states_, "state");
         return memory_.data() + layout_.registers + index * layout_.series;
     }
-    const double* output(std::size_t index) const override {
-        require_index(index, outputs_.size(), "output");
-        return outputs_[index];
-    }
+    const double* output(std::size_t index) const override { return item_at(outputs_, index, "output"); }
     void compute_deferred(std::span<const std::uint32_t> groups) override;
     void begin_deferred(std::span<const std::uint32_t> groups) override;
     const double* deferred(std::size_t index) const override {
-        require_index(index, deferred_.size(), "deferred expression");
-        return deferred_[index];
+        return item_at(deferred_, index, "deferred expression");
     }
     std::size_t deferred_count() const override { return deferred_.size(); }
     std::span<const Series> series() const override { return series_; }

@@ -1,7 +1,6 @@
 #include "graze/trajectory/outcome.hpp"
 
-#include <cstddef>
-#include <iterator>
+#include "base/enumerator_name.hpp"
 
 namespace graze {
 
@@ -9,8 +8,7 @@ std::string_view name_of(Ending ending) {
     constexpr std::string_view names[] = {"running",  "end-time",      "stopped",      "terminal",
                                           "singular", "undefined",     "inadmissible", "no-transition",
                                           "chatter",  "no-separation", "no-progress",  "step-limit"};
-    const auto place = static_cast<std::size_t>(ending);
-    return place < std::size(names) ? names[place] : "unknown";
+    return enumerator_name(names, ending, "unknown");
 }
 
 bool is_regular(Ending ending) {

@@ -97,7 +97,7 @@ LossPoint loss_point(const System& system, const SpecialPoint& point, const std:
     LossPoint found = is_fold(point) ? of_fold(system, point, candidates) : of_touch(system, point, candidates, orbit);
     const Model& model = system.model();
     found.name = model.independent_parameters()[found.parameter.place()];
-    found.unit = model.parameters[*model.find_parameter(found.name)].unit;
+    found.unit = model.parameter_unit(found.name);
     return found;
 }
 

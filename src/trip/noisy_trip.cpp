@@ -5,6 +5,7 @@
 #include "graze/base/input_error.hpp"
 #include "graze/model/driven_parameter.hpp"
 #include "graze/trajectory/ensemble.hpp"
+#include "orbit/newton.hpp"
 #include "trip/end_watch.hpp"
 
 #include <fmt/format.h>
@@ -172,8 +173,7 @@ void NoiseSettings::validate() const {
         throw InputError(fmt::format("{} cycles are out of range", cycles), fmt::format("choose from 1 to {}", most));
     if (jobs < 1)
         throw InputError(fmt::format("{} jobs cannot do anything", jobs), "give at least one");
-    if (!(tolerance >= 1e-16 && tolerance <= 1e-2))
-        throw InputError(fmt::format("the tolerance {} is out of range", tolerance), "give 1e-16 to 1e-2");
+    require_tolerance_in_range(tolerance);
     wilson_interval(0, 1, confidence); // refuses an invalid confidence
 }
 

@@ -57,11 +57,11 @@ public:
           overshoot_(overshoot), unit_(disturbance.empty() ? std::abs(overshoot) : 1) {
         const Eigen::Index n = index(map.active.size());
         matrix_ = matrix_of(map);
-        impact_ = Eigen::Map<const Eigen::VectorXd>(map.impact.data(), n);
-        gradient_ = Eigen::Map<const Eigen::VectorXd>(map.gradient.data(), n);
+        impact_ = vector_of(map.impact);
+        gradient_ = vector_of(map.gradient);
         rate_ = *map.clearance_rate;
         clearance_ = rate_ * (overshoot / unit_);
-        state_ = Eigen::Map<const Eigen::VectorXd>(map.steady.data(), n) * (-overshoot / unit_);
+        state_ = vector_of(map.steady) * (-overshoot / unit_);
         for (Eigen::Index i = 0; i < n && !disturbance.empty(); ++i)
             state_[i] += disturbance[map.active[static_cast<std::size_t>(i)]];
         begin(map, disturbance);
@@ -69,8 +69,8 @@ public:
 
     double speed() const { return speed_; } ///< approach speed of the contact at this pass; 0 without one
     double cycle() const { return cycle_; }
-    std::vector<double> state() const { return list_of(state_ * unit_); }
-    std::vector<double> state_before() const { return list_of(before_); } ///< state at the previous pass
+    std::vector<double> state() const { return numbers_of(state_ * unit_); }
+    std::vector<double> state_before() const { return numbers_of(before_); } ///< state at the previous pass
     double speed_before() const { return speed_before_; }
     /// Advances to the next pass.
     void step() {
@@ -99,7 +99,6 @@ public:
     std::size_t steps() const { return steps_; }
 
 private:
-    static std::vector<double> list_of(const Eigen::VectorXd& vector) { return {vector.begin(), vector.end()}; }
     void set_speed(double gap) { speed_ = gap < 0 ? std::sqrt(-2 * acceleration_ * gap) * std::sqrt(unit_) : 0; }
 
     /// Sets the contact at the start, which is at the touch itself: only an explicit shift of the surface, or a

@@ -2,6 +2,7 @@
 
 #include "graze/base/input_error.hpp"
 #include "orbit/certify.hpp"
+#include "orbit/newton.hpp"
 #include "trip/end_watch.hpp"
 #include "trip/trip_start.hpp"
 
@@ -74,8 +75,7 @@ void require_end(const TripEnd& end) {
 void TripOptions::validate() const {
     if (!(cycles > 0 && cycles <= 1e9))
         throw InputError(fmt::format("{} cycles are not possible", cycles), "give up to 1e9");
-    if (!(tolerance >= 1e-16 && tolerance <= 1e-2))
-        throw InputError(fmt::format("the tolerance {} is out of range", tolerance), "give 1e-16 to 1e-2");
+    require_tolerance_in_range(tolerance);
     if (step_limit == 0)
         throw InputError("no steps are allowed", "give a limit of 1 or more");
 }

@@ -38,6 +38,10 @@ struct DeviceDrawing {
     std::vector<GridBox> trusses() const { return in_both(flexure.trusses); }
     std::vector<GridBox> in_both(const std::vector<GridBox>& of_flexure) const;
     GridBox in_device(const GridBox& of_flexure, bool in_lower) const;
+    /// Whether a point of the device is in a box of either flexure.
+    bool has(const GridBox& of_flexure, GridPoint at) const {
+        return in_device(of_flexure, false).contains(at) || in_device(of_flexure, true).contains(at);
+    }
 };
 
 /// Draws a device from dimensions that are on the grid. The result is valid: outlines are closed, do not intersect

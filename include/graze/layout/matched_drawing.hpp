@@ -18,9 +18,8 @@ struct MatchedQuantity {
     bool met = false;             ///< no step of the grid brings it closer
     std::string reason;           ///< why not met
 
-    double relative() const {
-        return drawn / designed - 1;
-    } ///< relative deviation of the drawn from the designed value
+    /// Relative deviation of the drawn from the designed value.
+    double relative() const { return drawn / designed - 1; }
 };
 
 struct MatchedDrawing {

@@ -170,6 +170,8 @@ struct Model : ModelItems {
     std::optional<std::size_t> find_jump(std::string_view item) const { return find_named(jumps, item); }
     std::optional<std::size_t> find_section(std::string_view item) const { return find_named(sections, item); }
     std::optional<std::size_t> find_quantity(std::string_view item) const { return find_named(quantities, item); }
+    /// Returns the unit of the parameter of this name; empty if there is none.
+    std::string parameter_unit(std::string_view name) const;
     /// Null when there is none; valid until transitions are added or removed.
     const Transition* find_transition(std::size_t mode, std::size_t event) const;
 
