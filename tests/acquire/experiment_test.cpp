@@ -1,6 +1,7 @@
 #include "graze/acquire/experiment.hpp"
 
 #include "acquire/bench_experiment.hpp"
+#include "base/message_of.hpp"
 #include "graze/base/input_errors.hpp"
 
 #include <array>
@@ -14,12 +15,7 @@ using ::testing::HasSubstr;
 
 /// The error message for a text of which a part is replaced.
 std::string message(const std::string& part, const std::string& by) {
-    try {
-        parse_experiment(replaced(experiment_text(), part, by), "e.toml");
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return message_of([&] { parse_experiment(replaced(experiment_text(), part, by), "e.toml"); });
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "graze/acquire/record_folder.hpp"
 
 #include "acquire/bench_experiment.hpp"
+#include "base/message_of.hpp"
 
 #include <gmock/gmock.h>
 
@@ -25,12 +26,7 @@ void commit(RecordFolder& records, const Level& level) {
 }
 
 std::string message(const std::string& path) {
-    try {
-        const RecordFolder records(path, experiment, 0);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return message_of([&] { RecordFolder(path, experiment, 0); });
 }
 
 } // namespace

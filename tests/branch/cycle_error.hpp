@@ -45,8 +45,7 @@ public:
         EXPECT_EQ(flow_.run(touch_.mode, state, -early), ModeFlow::Ending::done);
         Trajectory trajectory(simulation_, touch_.parameters);
         trajectory.start(state, touch_.mode, 0, early + map.time - late);
-        JetSet jets(simulation_, LaneKind::single);
-        run(trajectory, jets);
+        run(trajectory);
         EXPECT_EQ(trajectory.outcome().ending, Ending::end_time) << trajectory.outcome().detail;
         std::vector<double> end(trajectory.state().begin(), trajectory.state().end());
         if (map.half)

@@ -5,7 +5,7 @@
 #include "graze/grazing/trial.hpp"
 #include "graze/trajectory/trajectory.hpp"
 #include "orbit/orbits.hpp"
-#include "sweep/model_parts.hpp"
+#include "trajectory/model_parts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -111,6 +111,16 @@ inline std::vector<SpecialPoint> of_type(const Branch& branch, PointType type) {
     return of_type(branch.special, type);
 }
 
+/// Returns the first grazing of the settled motion along a branch.
+inline SpecialPoint first_touch(const Model& model, const std::string& section, BranchSettings settings,
+                                std::size_t cycles = 2000) {
+    settings.stop_at = {PointType::grazing};
+    const auto found =
+        of_type(follow_branch(System(model), settled(model, section, cycles).orbit, settings), PointType::grazing);
+    EXPECT_FALSE(found.empty()) << model.name;
+    return found.at(0);
+}
+
 /// Returns the map of a cycle that touches.
 inline CycleMap cycle_at(const Model& model, const SpecialPoint& point, std::optional<ParameterId> parameter,
                          bool next_order = false) {
@@ -148,10 +158,10 @@ inline double nearest_multiplier(const OrbitSolution& solution, double number) {
 }
 
 /// Verifies a fold by its multiplier and by its neighbours: the parameter has an extremum there.
-inline void expect_fold(const Branch& branch, const SpecialPoint& fold, double tolerance = 1e-6) {
+inline void expect_fold(const Branch& branch, const SpecialPoint& fold) {
     EXPECT_EQ(fold.type, PointType::fold);
     EXPECT_TRUE(fold.located);
-    EXPECT_LT(nearest_multiplier(fold.solution, 1), tolerance);
+    EXPECT_LT(nearest_multiplier(fold.solution, 1), 1e-6);
     ASSERT_GE(fold.step, 1U);
     ASSERT_LT(fold.step, branch.points.size());
     // The last point may be a special point; both neighbours must lie on the fold's step.
@@ -160,10 +170,10 @@ inline void expect_fold(const Branch& branch, const SpecialPoint& fold, double t
     EXPECT_GE(before * after, 0) << before << ' ' << after;
 }
 
-inline void expect_flip(const SpecialPoint& flip, double tolerance = 1e-8) {
+inline void expect_flip(const SpecialPoint& flip) {
     EXPECT_EQ(flip.type, PointType::flip);
     EXPECT_TRUE(flip.located);
-    EXPECT_LT(nearest_multiplier(flip.solution, -1), tolerance);
+    EXPECT_LT(nearest_multiplier(flip.solution, -1), 1e-8);
 }
 
 /// Returns the value of an event function after simulating for a time.
@@ -172,8 +182,7 @@ inline double simulated(const Model& model, const SpecialPoint& point, double ti
     const Simulation simulation{System(model)};
     Trajectory trajectory(simulation, orbit.parameters);
     trajectory.start(orbit.starts[point.segment], orbit.signature[point.segment].mode, 0, time);
-    JetSet jets(simulation, LaneKind::single);
-    run(trajectory, jets);
+    run(trajectory);
     std::vector<double> values(trajectory.state().begin(), trajectory.state().end());
     values.insert(values.end(), orbit.parameters.begin(), orbit.parameters.end());
     return simulation.system().event(point.event)(values)[0];

@@ -13,12 +13,7 @@ using namespace graze::testing;
 
 SpecialPoint mems_grazing(Model& model) {
     model = started(shipped_with("mems-switch", {{"V", 0.15}}), {{"q", 0}});
-    const BranchSettings settings = in_parameter(model, "V", {}, 0.4);
-    for (const SpecialPoint& point : follow_branch(System(model), settled(model, "phase0").orbit, settings).special)
-        if (point.type == PointType::grazing)
-            return point;
-    ADD_FAILURE() << "no grazing";
-    return {};
+    return first_touch(model, "phase0", in_parameter(model, "V", {}, 0.4));
 }
 
 TEST(LocatedValue, TouchAndItsDerivativesHaveTheirClosedFormInAnyUnits) {
@@ -110,12 +105,8 @@ TEST(LocatedValue, MicroactuatorHasTheDerivativesThatDimensionsDemand) {
     // alpha V^2 / d^2 is a force: V scales with d^(3/2) when all lengths do, with the square root of all forces, and
     // with alpha^(-1/2).
     const Model model = shipped_with("impact-microactuator", {{"V", 0.1}});
-    BranchSettings settings = in_parameter(model, "V", 0, 3);
-    settings.stop_at = {PointType::grazing};
-    const Branch branch = follow_branch(System(model), settled(model, "longest", 4000).orbit, settings);
-    ASSERT_FALSE(branch.special.empty());
-    ASSERT_EQ(branch.special.back().type, PointType::grazing);
-    const LocatedValue touch(System(model), branch.special.back(), settings.parameter,
+    const BranchSettings settings = in_parameter(model, "V", 0, 3);
+    const LocatedValue touch(System(model), first_touch(model, "longest", settings, 4000), settings.parameter,
                              parameters_but(model, settings.parameter));
     const std::vector<std::string> names = model.independent_parameters();
     const auto relative = [&](const std::vector<std::string>& of) {
@@ -142,17 +133,11 @@ TEST(LocatedValue, TouchIsFollowedIntoAnotherSegment) {
     EXPECT_TRUE(found.admissible) << found.problem;
     // The same from the branch at that frequency.
     model.set_parameter("omega", 0.96);
-    BranchSettings settings;
-    settings.parameter = voltage;
-    settings.greatest = 0.4;
-    settings.stop_at = {PointType::grazing};
     model.set_parameter("V", 0.1);
-    const Branch branch = follow_branch(System(model), settled(model, "phase0").orbit, settings);
-    ASSERT_FALSE(branch.special.empty());
-    ASSERT_EQ(branch.special.back().type, PointType::grazing);
+    const SpecialPoint there = first_touch(model, "phase0", in_parameter(model, "V", {}, 0.4));
     const auto mode_of = [](const SpecialPoint& one) { return one.solution.orbit.signature[one.segment].mode; };
-    EXPECT_NE(mode_of(branch.special.back()), mode_of(point));
-    EXPECT_NEAR(found.value, branch.special.back().parameter, 1e-12);
+    EXPECT_NE(mode_of(there), mode_of(point));
+    EXPECT_NEAR(found.value, there.parameter, 1e-12);
     // The object is unchanged.
     EXPECT_EQ(touch(std::vector{1.01}).value,
               LocatedValue(System(load_model("mems-switch")), point, voltage, {frequency})(std::vector{1.01}).value);

@@ -1,5 +1,6 @@
 // Starts, ends and step lengths of branches, which must not change the points found.
 
+#include "base/message_of.hpp"
 #include "follow.hpp"
 
 #include <gtest/gtest.h>
@@ -178,21 +179,12 @@ TEST(OrbitBranch, SixtySegmentsGiveTheSamePointsAsOne) {
     EXPECT_LT(branch.points.back().solution.residual, 1e-11);
 }
 
-std::string refusal(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "nothing was refused";
-}
-
 TEST(OrbitBranch, WrongSettingsAreRefused) {
     const OneImpact one;
     const auto refused = [&](const std::function<void(BranchSettings&)>& change) {
         BranchSettings settings = one.settings;
         change(settings);
-        return refusal([&] { follow_branch(System(one.model), one.orbit, settings); });
+        return message_of([&] { follow_branch(System(one.model), one.orbit, settings); });
     };
     EXPECT_NE(refused([](auto& s) { s.direction = 0; }).find("direction"), std::string::npos);
     EXPECT_NE(refused([](auto& s) { s.parameter = ParameterId(99); }).find("parameter"), std::string::npos);
@@ -204,10 +196,10 @@ TEST(OrbitBranch, WrongSettingsAreRefused) {
     EXPECT_NE(refused([](auto& s) { s.orbit.tolerance = 1; }).find("tolerance"), std::string::npos);
     Orbit wrong = one.orbit;
     wrong.starts[0].pop_back();
-    EXPECT_NE(refusal([&] { follow_branch(System(one.model), wrong, one.settings); }).find("states"),
+    EXPECT_NE(message_of([&] { follow_branch(System(one.model), wrong, one.settings); }).find("states"),
               std::string::npos);
     OrbitBranch branch(System(one.model), one.orbit, one.settings);
-    EXPECT_NE(refusal([&] { branch.start_along({{{1, 2}}, {1}, {}}, 0.1); }).find("direction"), std::string::npos);
+    EXPECT_NE(message_of([&] { branch.start_along({{{1, 2}}, {1}, {}}, 0.1); }).find("direction"), std::string::npos);
     EXPECT_FALSE(branch.step());
     // A candidate from which no orbit is found.
     wrong = one.orbit;
@@ -225,12 +217,12 @@ TEST(OrbitBranch, PointsWithoutOtherBranchesAreRefused) {
     BranchSettings settings = one.settings;
     settings.direction = -1;
     const Branch branch = follow_branch(System(one.model), one.orbit, settings);
-    EXPECT_NE(refusal([&] { branches_at(System(one.model), branch.special.at(0), settings); }).find("SN"),
+    EXPECT_NE(message_of([&] { branches_at(System(one.model), branch.special.at(0), settings); }).find("SN"),
               std::string::npos);
     settings.direction = 1;
     settings.greatest = 0.05;
     const Branch bounded = follow_branch(System(one.model), one.orbit, settings);
-    EXPECT_NE(refusal([&] { branches_at(System(one.model), bounded.special.at(0), settings); }).find("BD"),
+    EXPECT_NE(message_of([&] { branches_at(System(one.model), bounded.special.at(0), settings); }).find("BD"),
               std::string::npos);
 }
 

@@ -19,11 +19,8 @@ struct Touching {
 };
 
 Touching touching(Model model, const char* parameter, double greatest) {
-    BranchSettings settings = in_parameter(model, parameter, {}, greatest);
-    settings.stop_at = {PointType::grazing};
-    auto found = of_type(follow_branch(System(model), settled(model, "phase0").orbit, settings), PointType::grazing);
-    EXPECT_FALSE(found.empty());
-    return {std::move(model), found.empty() ? SpecialPoint{} : found.front()};
+    SpecialPoint point = first_touch(model, "phase0", in_parameter(model, parameter, {}, greatest));
+    return {std::move(model), std::move(point)};
 }
 
 /// Returns the largest scaled error of the gradient relative to its largest entry, against eighth-order differences

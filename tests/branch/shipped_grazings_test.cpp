@@ -45,8 +45,7 @@ std::vector<double> speeds_beyond(const Model& model, const CycleMap& map, Param
     Recorder recorder;
     Trajectory trajectory(simulation, parameters, borrowed(recorder));
     trajectory.start(state, map.contact.touch.mode, 0, cycles * map.time);
-    JetSet jets(simulation, LaneKind::single);
-    run(trajectory, jets);
+    run(trajectory);
     std::vector<double> speeds;
     for (const auto& one : recorder.contacts())
         if (one.contact.event == map.contact.touch.event)
@@ -84,8 +83,7 @@ void expect_projections(const Model& model, const CycleMap& map, std::size_t cyc
         const double short_of = std::max(20 * speed / map.contact.acceleration,
                                          3 * std::sqrt(2 * std::abs(projection) * speed / map.contact.acceleration));
         trajectory.start(state, touch.mode, 0, static_cast<double>(cycles) * map.time - short_of);
-        JetSet jets(simulation, LaneKind::single);
-        run(trajectory, jets);
+        run(trajectory);
         ASSERT_EQ(trajectory.outcome().ending, Ending::end_time) << trajectory.outcome().detail;
         ASSERT_EQ(trajectory.mode(), touch.mode);
         std::vector<double> end(trajectory.state().begin(), trajectory.state().end());

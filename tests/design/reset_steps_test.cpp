@@ -3,8 +3,8 @@
 
 #include "design/reset_steps.hpp"
 
-#include "sweep/model_parts.hpp"
 #include "switches.hpp"
+#include "trajectory/model_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -144,8 +144,7 @@ std::size_t late_contacts(const TripPoint& trip, const std::vector<double>& valu
             count.contacts = 0;
             Trajectory trajectory(simulation, parameters, borrowed(count));
             trajectory.start(state, mode, 0, periods * orbit.period());
-            JetSet jets(simulation, LaneKind::single);
-            run(trajectory, jets);
+            run(trajectory);
             state.assign(trajectory.state().begin(), trajectory.state().end());
             mode = trajectory.mode();
         }

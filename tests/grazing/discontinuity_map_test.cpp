@@ -6,7 +6,7 @@
 #include "graze/flow/mode_flow.hpp"
 #include "graze/trajectory/trajectory.hpp"
 #include "near_touch.hpp"
-#include "sweep/model_parts.hpp"
+#include "trajectory/model_parts.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -41,8 +41,7 @@ double error_at(const System& system, const DiscontinuityMap& map, double depth,
     EXPECT_EQ(flow.run(touch.mode, predicted, time), ModeFlow::Ending::done);
     Trajectory trajectory(simulation, touch.parameters);
     trajectory.start(before, touch.mode, 0, 2 * time);
-    JetSet jets(simulation, LaneKind::single);
-    run(trajectory, jets);
+    run(trajectory);
     EXPECT_EQ(trajectory.outcome().ending, Ending::end_time) << trajectory.outcome().detail;
     EXPECT_EQ(trajectory.mode(), touch.mode);
     double error = 0;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "orbit/orbits.hpp"
-#include "sweep/model_parts.hpp"
+#include "trajectory/model_parts.hpp"
 
 #include <fmt/format.h>
 

@@ -368,8 +368,7 @@ TEST(Verdict, AttractorsOfTheMapEqualThoseOfSimulation) {
             Counter counter(transient * one.period());
             Trajectory trajectory(simulation, parameters, borrowed(counter));
             trajectory.start(start, 0, 0, static_cast<double>(transient + rounds * motion.period) * one.period());
-            JetSet jets(simulation, LaneKind::single);
-            run(trajectory, jets);
+            testing::run(trajectory);
             EXPECT_EQ(counter.count(), rounds * motion.contacts)
                 << omega << ' ' << depth << ": " << motion.contacts << " in " << motion.period;
         }

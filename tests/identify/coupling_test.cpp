@@ -1,21 +1,16 @@
 #include "graze/identify/coupling.hpp"
 
 #include "graze/base/input_error.hpp"
+#include "identify/models.hpp"
 #include "identify/noise.hpp"
 
 #include <functional>
 
 namespace graze::testing {
 
+using namespace magnet;
+
 namespace {
-
-// Constants of the testbed: Appendix C of B. E. Wilcox's dissertation.
-constexpr double beta1 = 1.902e-5, beta2 = 1.631e-3, gap = 0.00479102312304, stiffness = 0.6462 * 95.94 * 95.94;
-
-/// The current at which a displacement is an equilibrium, Eq. (5.13).
-double current_at(double q) {
-    return (gap + beta2 - q) * std::sqrt(2 * stiffness * q / beta1);
-}
 
 std::vector<StaticLoad> loads_of(Noise& noise, double noise_q, double noise_i) {
     std::vector<StaticLoad> loads;

@@ -1,28 +1,23 @@
 #include "graze/identify/identification.hpp"
 
-#include "graze/base/input_error.hpp"
+#include "base/message_of.hpp"
+#include "identify/models.hpp"
 #include "identify/noise.hpp"
 
 #include <cmath>
+#include <functional>
 #include <gmock/gmock.h>
 #include <numbers>
 #include <utility>
 
 namespace graze::testing {
 
+using namespace magnet;
 using ::testing::HasSubstr;
 
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
-
-// A magnet: Appendix C of B. E. Wilcox's dissertation.
-constexpr double beta1 = 1.902e-5, beta2 = 1.631e-3, gap = 0.00479102312304, stiffness = 0.6462 * 95.94 * 95.94;
-
-/// The current at which a displacement is an equilibrium, Eq. (5.13).
-double current_at(double q) {
-    return (gap + beta2 - q) * std::sqrt(2 * stiffness * q / beta1);
-}
 
 struct NamedRecord {
     std::string name;
@@ -57,15 +52,6 @@ void expect_value(const Identification& found, const std::string& name, double v
                   const std::string& unit) {
     EXPECT_NEAR(value_of(found, name).estimate.value, value, tolerance) << name;
     EXPECT_EQ(value_of(found, name).unit, unit) << name;
-}
-
-std::string message_of(const std::function<void()>& work) {
-    try {
-        work();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
 }
 
 /// Velocity of a release by natural frequency and damping ratio, with a rest position.

@@ -2,9 +2,22 @@
 
 #include "graze/model/model_file.hpp"
 
+#include <cmath>
 #include <string>
 
 namespace graze::testing {
+
+/// A magnet: Appendix C of B. E. Wilcox's dissertation.
+namespace magnet {
+
+inline constexpr double beta1 = 1.902e-5, beta2 = 1.631e-3, gap = 0.00479102312304, stiffness = 0.6462 * 95.94 * 95.94;
+
+/// The current at which a displacement is an equilibrium, Eq. (5.13).
+inline double current_at(double q) {
+    return (gap + beta2 - q) * std::sqrt(2 * stiffness * q / beta1);
+}
+
+} // namespace magnet
 
 /// A model with one mode. @param parameters, states, rates as TOML
 inline Model smooth_model(const std::string& parameters, const std::string& states, const std::string& rates) {

@@ -1,7 +1,7 @@
 #include "graze/layout/device_drawing.hpp"
 
+#include "base/message_of.hpp"
 #include "graze/layout/device_measures.hpp"
-#include "message_of.hpp"
 
 #include <gmock/gmock.h>
 

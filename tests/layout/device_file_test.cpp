@@ -1,8 +1,8 @@
 #include "graze/layout/device_file.hpp"
 
+#include "base/message_of.hpp"
 #include "graze/base/input_errors.hpp"
 #include "graze/design/design.hpp"
-#include "message_of.hpp"
 
 #include <gmock/gmock.h>
 

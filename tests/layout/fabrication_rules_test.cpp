@@ -1,7 +1,7 @@
 #include "graze/layout/fabrication_rules.hpp"
 
+#include "base/message_of.hpp"
 #include "graze/base/input_errors.hpp"
-#include "message_of.hpp"
 
 #include <gmock/gmock.h>
 

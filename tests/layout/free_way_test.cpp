@@ -1,6 +1,6 @@
 #include "graze/layout/fabrication_rules.hpp"
 
-#include "graze/base/input_errors.hpp"
+#include "base/message_of.hpp"
 
 #include <gmock/gmock.h>
 
@@ -21,14 +21,7 @@ std::vector<RuleFinding> ways(const GivenLengths& given) {
 
 std::string refusal(const GivenLengths& given) {
     const DeviceFile file = load_device_file("mems-switch-device", given);
-    try {
-        require_rules(file, rule_findings(file, draw_device_layout(file)));
-    } catch (const InputErrors& errors) {
-        return errors.all().front().what();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return message_of([&] { require_rules(file, rule_findings(file, draw_device_layout(file))); });
 }
 
 constexpr double rounding = 1e-9; // of sums in micrometres

@@ -1,7 +1,7 @@
 #include "graze/layout/layout.hpp"
 
+#include "base/message_of.hpp"
 #include "graze/layout/gds_stream.hpp"
-#include "message_of.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 #include "graze/layout/process_spread.hpp"
 
+#include "base/message_of.hpp"
 #include "graze/layout/device_file.hpp"
-#include "message_of.hpp"
 
 #include <gmock/gmock.h>
 

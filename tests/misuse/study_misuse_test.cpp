@@ -1,5 +1,6 @@
 // Wrong uses of result files, their contents, and studies.
 
+#include "base/temporary_folder.hpp"
 #include "misuse/valid_objects.hpp"
 #include "misuse/wrong_use.hpp"
 
@@ -10,11 +11,6 @@
 #include "graze/study/runner.hpp"
 #include "graze/study/study_catalogue.hpp"
 
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
-
 namespace graze {
 namespace {
 
@@ -23,20 +19,10 @@ using namespace graze::testing;
 /// A folder with a result file that contains a branch and a sweep of four points with two states, coordinates and
 /// values.
 struct Results {
-    std::filesystem::path folder =
-        std::filesystem::temp_directory_path() / ("graze-misuse-" + std::to_string(getpid()));
-    std::unique_ptr<ResultFile> file;
-    Results() {
-        std::filesystem::remove_all(folder);
-        std::filesystem::create_directories(folder);
-        file = std::make_unique<ResultFile>(path(), ResultFile::Access::write);
-        file->begin_run(sweep());
-    }
-    ~Results() {
-        file.reset();
-        std::filesystem::remove_all(folder);
-    }
-    std::string path(const std::string& name = "results.sqlite") const { return (folder / name).string(); }
+    TemporaryFolder folder;
+    std::unique_ptr<ResultFile> file = std::make_unique<ResultFile>(path(), ResultFile::Access::write);
+    Results() { file->begin_run(sweep()); }
+    std::string path(const std::string& name = "results.sqlite") const { return folder / name; }
     static RunRecord sweep() {
         RunRecord run;
         run.name = "sweep";
@@ -86,15 +72,14 @@ void result_files(WrongUses& wrong) {
     using Access = ResultFile::Access;
     of("second_writer", [](Results& r) { ResultFile(r.path(), Access::write); });
     of("read_no_file", [](Results& r) { ResultFile(r.path("none"), Access::read); });
-    of("read_folder", [](Results& r) { ResultFile(r.folder.string(), Access::read); });
+    of("read_folder", [](Results& r) { ResultFile(r.folder.path(), Access::read); });
     of("write_in_no_folder", [](Results& r) { ResultFile(r.path("none/none"), Access::write); });
     for (const Access access : {Access::read, Access::write}) {
         const std::string number = std::to_string(static_cast<int>(access));
         of("empty_path_" + number, [access](Results&) { ResultFile("", access); });
         of("memory_" + number, [access](Results&) { ResultFile(":memory:", access); });
         of("text_file_" + number, [access](Results& r) {
-            std::ofstream(r.path("text")) << "this is no such file, however long it may be";
-            ResultFile(r.path("text"), access);
+            ResultFile(r.folder.write("text", "this is no such file, however long it may be"), access);
         });
     }
     const auto reading = [&](const std::string& name, const std::function<void(ResultFile&)>& use) {

@@ -1,5 +1,7 @@
 #include "graze/model/model_file.hpp"
 
+#include "base/message_of.hpp"
+#include "base/temporary_folder.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/model/check.hpp"
 #include "graze/symbolic/transform.hpp"
@@ -9,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 
 namespace graze {
@@ -373,24 +374,14 @@ TEST(ModelFile, ReadsManyStatesInOrder) {
 }
 
 TEST(ModelFile, RefusesFilesThatCannotBeRead) {
-    const auto message = [](const std::string& path) {
-        try {
-            read_model(path);
-        } catch (const InputError& error) {
-            return std::string(error.what());
-        }
-        return std::string();
-    };
+    const auto message = [](const std::string& path) { return testing::message_of([&] { read_model(path); }); };
     EXPECT_NE(message("/nowhere/at/all.toml").find("/nowhere/at/all.toml: "), std::string::npos);
     EXPECT_NE(message("/nowhere/at/all.toml").find("the model file cannot be read (No such file"), std::string::npos);
     EXPECT_NE(message("/").find("directory"), std::string::npos);
     EXPECT_NE(message("/dev/zero").find("this is a device, not a model file"), std::string::npos);
-    const auto path = std::filesystem::temp_directory_path() / "graze_model_file_test.toml";
-    std::ofstream(path) << everything;
-    EXPECT_EQ(read_model(path.string()).states.size(), 5U);
-    std::ofstream(path, std::ios::trunc).flush();
-    EXPECT_NE(message(path.string()).find("the model is empty"), std::string::npos);
-    std::filesystem::remove(path);
+    const testing::TemporaryFolder folder;
+    EXPECT_EQ(read_model(folder.write("m.toml", everything)).states.size(), 5U);
+    EXPECT_NE(message(folder.write("m.toml", "")).find("the model is empty"), std::string::npos);
 }
 
 TEST(ModelFile, RefusesTextsThatAreNotToml) {

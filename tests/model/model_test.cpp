@@ -1,5 +1,6 @@
 #include "graze/model/model.hpp"
 
+#include "base/message_of.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/symbolic/transform.hpp"
 
@@ -11,6 +12,8 @@
 
 namespace graze {
 namespace {
+
+using testing::message_of;
 
 /// A bouncing ball, built from C++.
 Model ball() {
@@ -46,15 +49,6 @@ void expect_invalid(const std::function<void(Model&)>& change, const std::string
     }
 }
 
-std::string message(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
-}
-
 TEST(Model, FindsItemsByName) {
     const Model model = ball();
     EXPECT_EQ(model.find_parameter("e"), 1U);
@@ -68,6 +62,16 @@ TEST(Model, FindsItemsByName) {
     EXPECT_FALSE(model.find_state("g"));
     EXPECT_EQ(model.find_transition(0, 0), &model.transitions[0]);
     EXPECT_EQ(model.find_transition(0, 1), nullptr);
+}
+
+TEST(Model, TellsUnitsOfParameters) {
+    Model model = ball();
+    model.parameters[2].unit = "km/s^2";
+    EXPECT_EQ(model.parameter_unit("g"), "m/s^2");
+    EXPECT_EQ(model.parameter_unit("e"), "");
+    EXPECT_EQ(model.parameter_unit("twice"), "km/s^2"); // of a dependent parameter too
+    EXPECT_EQ(model.parameter_unit("x"), "");           // a state
+    EXPECT_EQ(model.parameter_unit("none"), "");
 }
 
 TEST(Model, ListsIndependentParametersOnly) {
@@ -125,7 +129,7 @@ TEST(Model, ExpandShowsTheCircle) {
     model.definitions.push_back({"a", "", model.symbol("b") + 1});
     model.definitions.push_back({"b", "", model.symbol("c") * 2});
     model.definitions.push_back({"c", "", model.symbol("b")});
-    EXPECT_NE(message([&] { model.expand(model.symbol("a")); }).find("b -> c -> b"), std::string::npos);
+    EXPECT_NE(message_of([&] { model.expand(model.symbol("a")); }).find("b -> c -> b"), std::string::npos);
     EXPECT_NO_THROW(model.expand(model.symbol("weight")));
 }
 
@@ -140,13 +144,13 @@ TEST(Model, SetsParametersAndInitialValues) {
     model.set_initial_mode("flight");
     EXPECT_EQ(model.initial_mode, 0U);
 
-    EXPECT_NE(message([&] { model.set_parameter("gg", 1); }).find("no parameter 'gg'; did you mean 'g'?"),
+    EXPECT_NE(message_of([&] { model.set_parameter("gg", 1); }).find("no parameter 'gg'; did you mean 'g'?"),
               std::string::npos);
-    EXPECT_NE(message([&] { model.set_parameter("twice", 1); }).find("follows from others"), std::string::npos);
-    EXPECT_NE(message([&] { model.set_parameter("g", std::nan("")); }).find("finite"), std::string::npos);
-    EXPECT_NE(message([&] { model.set_initial("y", 1); }).find("no state 'y'"), std::string::npos);
-    EXPECT_NE(message([&] { model.set_initial("x", INFINITY); }).find("finite"), std::string::npos);
-    EXPECT_NE(message([&] { model.set_initial_mode("fligth"); }).find("'flight'"), std::string::npos);
+    EXPECT_NE(message_of([&] { model.set_parameter("twice", 1); }).find("follows from others"), std::string::npos);
+    EXPECT_NE(message_of([&] { model.set_parameter("g", std::nan("")); }).find("finite"), std::string::npos);
+    EXPECT_NE(message_of([&] { model.set_initial("y", 1); }).find("no state 'y'"), std::string::npos);
+    EXPECT_NE(message_of([&] { model.set_initial("x", INFINITY); }).find("finite"), std::string::npos);
+    EXPECT_NE(message_of([&] { model.set_initial_mode("fligth"); }).find("'flight'"), std::string::npos);
     EXPECT_EQ(model.parameter_values()[0], 1.62);
 }
 
@@ -165,7 +169,7 @@ TEST(Model, KeepsInitialCyclicStatesWithinTheirPeriod) {
     EXPECT_EQ(initial(1001), 1);
     EXPECT_EQ(initial(-std::numeric_limits<double>::denorm_min()), 0);
     model.set_parameter("turn", -1);
-    EXPECT_NE(message([&] { model.initial_state(); }).find("the period of 'x' is -1"), std::string::npos);
+    EXPECT_NE(message_of([&] { model.initial_state(); }).find("the period of 'x' is -1"), std::string::npos);
 }
 
 TEST(Model, RefusesInitialValuesThatAreNotFinite) {
@@ -173,7 +177,7 @@ TEST(Model, RefusesInitialValuesThatAreNotFinite) {
     model.states[1].initial = 1 / (model.symbol("e") - 0.25);
     EXPECT_EQ(model.initial_state()[1], 4);
     model.set_parameter("e", 0.25);
-    EXPECT_NE(message([&] { model.initial_state(); }).find("the initial value of 'v' is inf"), std::string::npos);
+    EXPECT_NE(message_of([&] { model.initial_state(); }).find("the initial value of 'v' is inf"), std::string::npos);
 }
 
 TEST(Model, ValidatesNames) {

@@ -1,7 +1,7 @@
 // Orbits of models that conserve a quantity: one member of the family is found and reported as such.
 
 #include "orbits.hpp"
-#include "sweep/model_parts.hpp"
+#include "trajectory/model_parts.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // orbits where it does not.
 
 #include "graze/orbit/solve.hpp"
-#include "sweep/model_parts.hpp"
+#include "trajectory/model_parts.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Multipliers of strongly contracting orbits against closed forms.
 
 #include "orbits.hpp"
-#include "sweep/model_parts.hpp"
+#include "trajectory/model_parts.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

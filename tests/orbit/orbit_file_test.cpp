@@ -1,5 +1,6 @@
 #include "graze/orbit/orbit_file.hpp"
 
+#include "base/message_of.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/orbit/solve.hpp"
 #include "trajectory/simulate.hpp"
@@ -8,8 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
-
-#include <fstream>
 
 namespace graze {
 namespace {
@@ -54,12 +53,7 @@ TEST(OrbitTable, IsAFirstGuessOfTheOrbit) {
 TEST(OrbitTable, MistakesAreReportedWithTheirPlace) {
     const Model model = oscillator();
     const auto refusal = [&](const std::string& text, const std::string& signature = "impact") {
-        try {
-            parse_orbit_table(model, text, signature, "orbit.csv");
-        } catch (const InputError& error) {
-            return std::string(error.what());
-        }
-        return std::string();
+        return message_of([&] { parse_orbit_table(model, text, signature, "orbit.csv"); });
     };
     EXPECT_THAT(refusal(""), HasSubstr("orbit.csv:1:1: the table is empty"));
     EXPECT_THAT(refusal(heading), HasSubstr("the table has no rows"));

@@ -1,9 +1,9 @@
 // Search for orbits with a given signature.
 
-#include "graze/base/input_error.hpp"
+#include "base/message_of.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/orbit/solve.hpp"
-#include "sweep/model_parts.hpp"
+#include "trajectory/model_parts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,12 +16,7 @@ namespace {
 using namespace graze::testing;
 
 std::string refusal(const Model& model, const std::string& signature, const SignatureSearchOptions& search = {}) {
-    try {
-        orbit_with_signature(System(model), parse_signature(model, signature), {}, {}, search);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return message_of([&] { orbit_with_signature(System(model), parse_signature(model, signature), {}, {}, search); });
 }
 
 TEST(OrbitWithSignature, IdentityTransitionsAndSectionsCountWhereTheSignatureNamesThem) {

@@ -1,4 +1,4 @@
-#include "graze/base/input_error.hpp"
+#include "base/message_of.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/orbit/signature.hpp"
 
@@ -33,12 +33,7 @@ TEST(Signature, ModesFollowFromTheGraph) {
 
 std::string message(const char* text) {
     const Model model = load_model("impact-microactuator");
-    try {
-        parse_signature(model, text, {"study.toml", 3, 10});
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return testing::message_of([&] { parse_signature(model, text, {"study.toml", 3, 10}); });
 }
 
 TEST(Signature, MistakesAreReportedWithTheirPlace) {

@@ -1,6 +1,6 @@
 #include "graze/base/input_error.hpp"
 #include "orbits.hpp"
-#include "sweep/model_parts.hpp"
+#include "trajectory/model_parts.hpp"
 
 #include <gtest/gtest.h>
 

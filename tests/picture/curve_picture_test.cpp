@@ -3,7 +3,7 @@
 #include "graze/picture/result_picture.hpp"
 #include "graze/study/runner.hpp"
 
-#include "../base/temporary_folder.hpp"
+#include "base/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 

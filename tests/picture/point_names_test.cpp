@@ -7,8 +7,8 @@
 #include "graze/study/stored_study.hpp"
 #include "graze/study/study_table.hpp"
 
-#include "../base/temporary_folder.hpp"
-#include "../layout/message_of.hpp"
+#include "base/message_of.hpp"
+#include "base/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 

@@ -3,8 +3,8 @@
 #include "graze/results/stored_run.hpp"
 #include "graze/study/runner.hpp"
 
-#include "../base/temporary_folder.hpp"
-#include "../study/wave_records.hpp"
+#include "base/temporary_folder.hpp"
+#include "study/wave_records.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 
 #include "graze/study/runner.hpp"
 
-#include "../base/temporary_folder.hpp"
+#include "base/temporary_folder.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

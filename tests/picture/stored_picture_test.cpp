@@ -1,7 +1,7 @@
 #include "graze/picture/result_picture.hpp"
 #include "graze/study/stored_study.hpp"
 
-#include "../study/study_of_every_kind.hpp"
+#include "study/study_of_every_kind.hpp"
 
 namespace graze {
 namespace {

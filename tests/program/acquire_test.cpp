@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <gmock/gmock.h>
-#include <map>
 #include <random>
 #include <sys/file.h>
 #include <thread>
@@ -13,6 +12,7 @@ namespace graze::testing {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 /// A simulated bench of the testbed, in another process, and an experiment file that uses it.
 class Experiment {
@@ -50,26 +50,11 @@ public:
         line->send("VOLT?");
         return std::strtod(line->receive(2).value_or("99").c_str(), nullptr);
     }
-    std::map<std::string, std::string> files(const std::string& records) const {
-        std::map<std::string, std::string> result;
-        for (const auto& entry : std::filesystem::directory_iterator(path(records)))
-            result[entry.path().filename().string()] = contents(entry.path());
-        return result;
-    }
 
 private:
     Folder folder_;
     StartedProcess bench_;
 };
-
-bool same(const std::map<std::string, std::string>& one, const std::map<std::string, std::string>& other) {
-    for (const auto& [name, text] : one)
-        if (const auto found = other.find(name); found == other.end() || found->second != text) {
-            ADD_FAILURE() << name << " differs";
-            return false;
-        }
-    return one.size() == other.size();
-}
 
 /// Carries out the whole experiment. @return the time that it took
 std::chrono::microseconds carried_out(const Experiment& experiment, const std::string& records) {
@@ -112,7 +97,7 @@ TEST(Acquire, RecordsAllLevelsOnceAndNothingTheSecondTime) {
     StartedProcess first(words_of(experiment.command("records")), experiment.path("said.txt"));
     EXPECT_EQ(first.wait(), 0);
     EXPECT_EQ(first.printed(), experiment.path("records") + ": 12 of 12 records\n");
-    EXPECT_EQ(experiment.files("records").size(), 14U);
+    EXPECT_EQ(files_of(experiment.path("records")).size(), 14U);
     EXPECT_EQ(experiment.amplitude("records"), 0.1);
     done(experiment.command("records"));
     const std::string sections = done("record " + experiment.path("records/0003_f6100mHz_a9700mV_up.csv") +
@@ -125,8 +110,7 @@ TEST(Acquire, ContinuesAfterKillsWithTheSameRecords) {
     const auto whole = carried_out(experiment, "whole");
     const Experiment another;
     EXPECT_GT(killed(another, "parts", 3, whole, 6), 2);
-    const auto parts = another.files("parts");
-    EXPECT_TRUE(same(experiment.files("whole"), parts));
+    EXPECT_THAT(different_files(experiment.path("whole"), another.path("parts")), IsEmpty());
 }
 
 TEST(AcquireSlow, ContinuesAfterFiftyKillsWithTheSameRecords) {
@@ -136,7 +120,7 @@ TEST(AcquireSlow, ContinuesAfterFiftyKillsWithTheSameRecords) {
     for (const unsigned seed : {1U, 2U}) {
         const Experiment another("", fine);
         EXPECT_EQ(killed(another, "parts", seed, whole, 50), 50) << "it was done before";
-        EXPECT_TRUE(same(experiment.files("whole"), another.files("parts")));
+        EXPECT_THAT(different_files(experiment.path("whole"), another.path("parts")), IsEmpty());
     }
 }
 
@@ -146,12 +130,12 @@ TEST(Acquire, ContinuesAfterTheDiskWasFull) {
     StartedProcess full(words_of(experiment.command("records")), experiment.path("said.txt"), 60'000);
     EXPECT_EQ(full.wait(), 2);
     EXPECT_EQ(experiment.amplitude("records"), 0.1);
-    EXPECT_EQ(experiment.files("records").count("0001_f6100mHz_a9500mV_up.csv"), 0U);
+    EXPECT_EQ(files_of(experiment.path("records")).count("0001_f6100mHz_a9500mV_up.csv"), 0U);
     const std::string said = contents(experiment.path("said.txt"));
     EXPECT_THAT(said, HasSubstr("the record cannot be written; look at the permissions of the folder and the room"));
     StartedProcess roomy(words_of(experiment.command("records")), experiment.path("said.txt"));
     EXPECT_EQ(roomy.wait(), 0) << roomy.printed();
-    EXPECT_EQ(experiment.files("records").size(), 14U);
+    EXPECT_EQ(files_of(experiment.path("records")).size(), 14U);
 }
 
 TEST(Acquire, ReportsAGeneratorThatClips) {

@@ -31,12 +31,12 @@ TEST(Check, SummarisesEveryShippedModel) {
 
 TEST(Check, WarnsAndReportsPlaces) {
     const Folder folder;
-    const std::string file = folder / "model.toml";
-    std::ofstream(file) << "name = \"m\"\n[parameters]\nunused = 1\n[states]\nx = 0\n[modes.a]\nrates = { x = 1 }\n";
+    const std::string file = folder.write(
+        "model.toml", "name = \"m\"\n[parameters]\nunused = 1\n[states]\nx = 0\n[modes.a]\nrates = { x = 1 }\n");
     const Printed warned = run_graze("check " + file);
     EXPECT_EQ(warned.code, 0);
     EXPECT_THAT(warned.err, HasSubstr("graze: warning: " + file + ": nothing uses the parameter 'unused'"));
-    std::ofstream(file) << "name = \"m\"\n[states]\nx = 0\n[modes.a]\nrates = { x = \"y\" }\n";
+    folder.write("model.toml", "name = \"m\"\n[states]\nx = 0\n[modes.a]\nrates = { x = \"y\" }\n");
     expect_refusal("check " + file, "graze: " + file + ":5:");
 }
 

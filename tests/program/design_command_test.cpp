@@ -40,11 +40,7 @@ within = [0.19, 0.21]
 }
 
 struct DesignCommand : public ::testing::Test {
-    std::string design(const std::string& text) const {
-        const std::string path = folder / "small.toml";
-        std::ofstream(path) << text;
-        return path;
-    }
+    std::string design(const std::string& text) const { return folder.write("small.toml", text); }
     Folder folder;
 };
 

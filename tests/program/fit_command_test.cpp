@@ -20,7 +20,7 @@ constexpr double decay = 0.3, frequency = 2, displacement = 1.5;
 class FitCommand : public ::testing::Test {
 protected:
     FitCommand() {
-        written("swing.toml", R"(
+        folder.write("swing.toml", R"(
 name = "swing"
 time_unit = "s"
 [parameters]
@@ -45,11 +45,7 @@ force = { value = "-k*x", unit = "m/s^2" }
                                     (std::cos(frequency * t) + decay / frequency * std::sin(frequency * t)),
                                 i);
         }
-        return written(name, text);
-    }
-    std::string written(const std::string& name, const std::string& text) const {
-        std::ofstream(folder / name) << text;
-        return folder / name;
+        return folder.write(name, text);
     }
     std::string fit(const std::string& options) const {
         return "identify fit " + (folder / "swing.toml") + " " + options;
@@ -80,7 +76,7 @@ TEST_F(FitCommand, FindsParametersThatOtherCommandsTake) {
 
 TEST_F(FitCommand, EqualsTheFitOfAStudyBitForBit) {
     const std::string a = record("a.csv", 1, "m"), b = record("b.csv", 1, "m", 60);
-    written("s.toml", R"(name = "s"
+    folder.write("s.toml", R"(name = "s"
 model = "./swing.toml"
 [runs.swings]
 kind = "record"

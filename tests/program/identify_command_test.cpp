@@ -26,7 +26,7 @@ protected:
             const double t = i * 1e-3;
             text += fmt::format("{},{}\n", t, -displacement * std::exp(-damping * natural * t) * std::sin(damped * t));
         }
-        return written(name, text);
+        return folder.write(name, text);
     }
     std::string equilibria() const {
         std::string text = "n, q [m], I [A]\n";
@@ -34,7 +34,7 @@ protected:
             const double q = i * 6e-5;
             text += fmt::format("{},{},{}\n", i, q, (gap + beta2 - q) * std::sqrt(2 * stiffness * q / beta1));
         }
-        return written("static.csv", text);
+        return folder.write("static.csv", text);
     }
     std::string clamped(double omega) const {
         const double inductance = leakage + beta1 / (beta2 + gap - 1e-3),
@@ -45,11 +45,7 @@ protected:
             text += fmt::format("{},{},{}\n", t, std::sin(omega * t),
                                 std::sin(omega * t - lag) / std::hypot(resistance, omega * inductance));
         }
-        return written(fmt::format("clamped{}.csv", omega), text);
-    }
-    std::string written(const std::string& name, const std::string& text) const {
-        std::ofstream(folder / name) << text;
-        return folder / name;
+        return folder.write(fmt::format("clamped{}.csv", omega), text);
     }
     const Folder folder;
 };
@@ -77,7 +73,7 @@ TEST_F(IdentifyCommand, FindsTheRestPositionOfARelease) {
         const double t = i * 1e-3;
         text += fmt::format("{},{}\n", t, 3 - std::exp(-damping * natural * t) * std::sin(damped * t));
     }
-    const Csv table = identified("decrement " + written("offset.csv", text) + " --channel q");
+    const Csv table = identified("decrement " + folder.write("offset.csv", text) + " --channel q");
     EXPECT_NEAR(table.number(1, "value"), damping, 1e-9);
     EXPECT_EQ(table.text(4, "name"), "rest_position");
     EXPECT_EQ(table.text(4, "unit"), "mm");
@@ -117,7 +113,7 @@ TEST_F(IdentifyCommand, FindsTheRestitution) {
         const double t = i * 1e-3 + 0.0005, part = t - std::floor(t); // impacts between two samples
         text += fmt::format("{},{}\n", t, -0.8 + 1.8 * part);
     }
-    const Csv table = identified("restitution " + written("run.csv", text));
+    const Csv table = identified("restitution " + folder.write("run.csv", text));
     EXPECT_NEAR(table.number(0, "value"), 0.8, 1e-9);
     const std::string picture = folder / "e.svg";
     if (std::system("command -v gnuplot > /dev/null") == 0) {
@@ -127,7 +123,7 @@ TEST_F(IdentifyCommand, FindsTheRestitution) {
 }
 
 TEST_F(IdentifyCommand, MistakesAreOneLineWithARemedy) {
-    const std::string a = release("a.csv", 1), empty = written("none_there.csv", "t [s], v [m/s]\n");
+    const std::string a = release("a.csv", 1), empty = folder.write("none_there.csv", "t [s], v [m/s]\n");
     const std::vector<std::pair<std::string, std::string>> mistakes{
         {"", "what to find is missing"},
         {"decrement", "write graze identify WHAT FILE"},
@@ -158,7 +154,7 @@ TEST_F(IdentifyCommand, MistakesAreOneLineWithARemedy) {
 TEST_F(IdentifyCommand, EqualsTheEstimatesOfAStudyBitForBit) {
     const std::string a = release("a.csv", 1), b = release("b.csv", 0.5), loads = equilibria(), coil = clamped(20);
     std::filesystem::copy(loads, folder / "more.csv");
-    written("s.toml", R"(name = "s"
+    folder.write("s.toml", R"(name = "s"
 model = "electromagnetic-testbed"
 [runs.releases]
 kind = "record"

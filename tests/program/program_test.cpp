@@ -37,8 +37,7 @@ TEST(Program, EmptyValuesAreRefused) {
 
 TEST(Program, NoFileIsWrittenTwiceOrReplacesTheModel) {
     const Folder folder;
-    const std::string model = folder / "model.toml", text = "states.x = 1\nmodes.m.rates.x = \"-x\"\n";
-    std::ofstream(model) << text;
+    const std::string text = "states.x = 1\nmodes.m.rates.x = \"-x\"\n", model = folder.write("model.toml", text);
     const std::string same = folder / "./model.toml", picture = folder / "picture.svg";
     for (const std::string& line :
          {"check " + model + " --output " + same, "check " + model + " --format csv --output " + same,

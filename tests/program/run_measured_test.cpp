@@ -1,12 +1,11 @@
 // Studies with runs of the kinds record and identify: output, exported tables and exit codes.
 
-#include "../base/temporary_folder.hpp"
+#include "base/temporary_folder.hpp"
 #include "run_graze.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <string>
 
 namespace graze::testing {

@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
 
 namespace graze::testing {
@@ -139,9 +138,7 @@ along = { V = [0.01, 0.4] }
 } // namespace
 
 TEST_F(TripCommand, ComparesAFoldWithATouch) {
-    const std::string study = folder / "two-ends.toml";
-    std::ofstream(study) << two_ends;
-    const std::string results = run_only(study, {});
+    const std::string results = run_only(folder.write("two-ends.toml", two_ends), {});
     const Csv fold = table({results, "folding:SN1", "--overshoot", "1e-2:1e-10", "--cycles", "20000"});
     ASSERT_EQ(fold.rows.size(), 9U);
     for (std::size_t row = 0; row < fold.rows.size(); ++row) {
@@ -179,9 +176,7 @@ TEST_F(TripCommand, ComparesAFoldWithATouch) {
 }
 
 TEST_F(TripCommand, FindsTheDelayOfARamp) {
-    const std::string study = folder / "two-ends.toml";
-    std::ofstream(study) << two_ends;
-    const std::string results = run_only(study, {});
+    const std::string results = run_only(folder.write("two-ends.toml", two_ends), {});
     const Csv touch = table({results, "touching:GR1", "--ramp", "1e-5:1e-10"});
     ASSERT_EQ(touch.rows.size(), 6U);
     for (std::size_t row = 0; row < touch.rows.size(); ++row) {

@@ -1,5 +1,6 @@
 #include "graze/record/processed_record.hpp"
 
+#include "base/message_of.hpp"
 #include "graze/base/input_error.hpp"
 #include "record/waves.hpp"
 
@@ -80,13 +81,8 @@ TEST(ProcessedRecord, RefusesARecordWithoutRows) {
 }
 
 TEST(ProcessedRecord, RefusesUnknownChannels) {
-    const auto message = [](const RecordProcessing& processing) -> std::string {
-        try {
-            ProcessedRecord processed(record(), processing);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
+    const auto message = [](const RecordProcessing& processing) {
+        return message_of([&] { ProcessedRecord(record(), processing); });
     };
     EXPECT_THAT(message({.scales = {{"y", 2, 0, {}}}}), ::testing::HasSubstr("scale: "));
     const std::string of_derivative = message({.derivative = "y"});

@@ -165,8 +165,7 @@ TEST(RecordFile, TextRefusesNamesThatCannotBeReadBack) {
 
 TEST(RecordFile, DamagedHdf5IsRefused) {
     const TemporaryFolder folder;
-    std::ifstream stream(written(folder, "record.h5", 20'000), std::ios::binary);
-    const std::string whole{std::istreambuf_iterator<char>(stream), {}};
+    const std::string whole = contents(written(folder, "record.h5", 20'000));
     std::size_t refused = 0, tried = 0;
     for (std::size_t length = 8; length < whole.size(); length += whole.size() / 50, ++tried)
         try {

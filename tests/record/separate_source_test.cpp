@@ -1,5 +1,6 @@
 #include "record/separate_source.hpp"
 
+#include "base/message_of.hpp"
 #include "base/sanitized.hpp"
 #include "base/temporary_folder.hpp"
 #include "graze/record/record_file.hpp"
@@ -38,16 +39,13 @@ private:
 };
 
 std::string refusal_of(const std::function<bool(Samples&)>& act, const ReadingLimits& limits = {}) {
-    try {
+    return message_of([&] {
         SeparateSource source(
             "r.h5", [&] { return std::make_unique<ActingSource>(act); }, limits);
         Samples samples;
         while (source.read(samples))
             ;
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    });
 }
 
 } // namespace
@@ -174,8 +172,7 @@ TEST(SeparateSource, MutatedRecordsAreReadOrRefused) {
     RecordWriter writer(path, {{"t", "s"}, {{"x", "mm"}, {"y", ""}}});
     writer.write({{0, 1, 2, 3}, {{1, 2, 3, 4}, {0, 0, 1, 1}}});
     writer.close();
-    std::ifstream stream(path, std::ios::binary);
-    const std::string whole{std::istreambuf_iterator<char>(stream), {}};
+    const std::string whole = contents(path);
     const char* asked = std::getenv("GRAZE_MUTATIONS");
     const int count = asked != nullptr ? std::atoi(asked) : 150;
     std::mt19937 random(asked != nullptr ? static_cast<unsigned>(count) : 1);

@@ -2,7 +2,7 @@
 
 #include "graze/results/result_table.hpp"
 
-#include "../base/temporary_folder.hpp"
+#include "base/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,6 +3,7 @@
 #include "results/file_form.hpp"
 #include "results/schema.hpp"
 
+#include "base/message_of.hpp"
 #include "base/temporary_folder.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/results/stored_run.hpp"
@@ -12,14 +13,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <functional>
-
 namespace graze {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using testing::message_of;
 using testing::TemporaryFolder;
 using ::testing::UnorderedElementsAre;
 
@@ -60,14 +60,6 @@ protected:
         return run;
     }
     void change(const std::string& sql) const { testing::change(path, sql); }
-    static std::string refusal(const std::function<void()>& work) {
-        try {
-            work();
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
-    }
     /// What is there is as it was written.
     void expect_all(const ResultFile& file) const {
         const auto found = file.orbit("b", std::size_t{0});
@@ -124,7 +116,7 @@ TEST_F(FileForm, ReadsNewerFilesThatHaveOnlyAddedSomething) {
     auto rows = StoredRun(file, "b", {}).rows({.values = {"added_later"}});
     ASSERT_TRUE(rows.next());
     EXPECT_EQ(rows.number(0), 0.5);
-    EXPECT_THAT(refusal([&] { ResultFile(path, ResultFile::Access::write); }),
+    EXPECT_THAT(message_of([&] { ResultFile(path, ResultFile::Access::write); }),
                 HasSubstr("has format 8, which this version of graze reads, but does not write"));
 }
 
@@ -134,7 +126,7 @@ TEST_F(FileForm, RefusesNewerFilesThatHaveChangedSomething) {
           "UPDATE meta SET value = 'x' WHERE key = 'oldest reader'", "DELETE FROM meta WHERE key = 'oldest reader'"}) {
         change(std::string("PRAGMA user_version = 8; ") + reader);
         for (const auto access : {ResultFile::Access::read, ResultFile::Access::write})
-            EXPECT_THAT(refusal([&] { ResultFile(path, access); }),
+            EXPECT_THAT(message_of([&] { ResultFile(path, access); }),
                         HasSubstr("has format 8, this version of graze knows"))
                 << reader;
         change("INSERT OR REPLACE INTO meta VALUES('oldest reader', '7')");
@@ -181,7 +173,7 @@ TEST_F(FileForm, ReadsWhatAnOlderFileLacksAsAbsent) {
 TEST_F(FileForm, RefusesFilesThatLackRequiredColumns) {
     change(std::string(without_views) + "ALTER TABLE branch_b DROP COLUMN residual; PRAGMA user_version = 6");
     const ResultFile file(path, ResultFile::Access::read);
-    EXPECT_THAT(refusal([&] { file.orbit("b", std::size_t{0}); }), HasSubstr("residual"));
+    EXPECT_THAT(message_of([&] { file.orbit("b", std::size_t{0}); }), HasSubstr("residual"));
     EXPECT_TRUE(file.point("s", 0)); // other runs are read
 }
 

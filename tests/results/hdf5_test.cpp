@@ -11,9 +11,7 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
@@ -235,8 +233,7 @@ TEST_F(Hdf5, EqualResultsGiveEqualFiles) {
     const ResultFile file(path("results.sqlite"), ResultFile::Access::read);
     const auto bytes = [&](const char* name) {
         export_hdf5(file, {"b"}, path(name));
-        std::ifstream stream(path(name), std::ios::binary);
-        return std::string{std::istreambuf_iterator<char>(stream), {}};
+        return testing::contents(path(name));
     };
     const std::string first = bytes("first.h5");
     usleep(1'100'000);

@@ -3,6 +3,7 @@
 #include "graze/base/input_error.hpp"
 #include "results/schema.hpp"
 
+#include "base/message_of.hpp"
 #include "base/temporary_folder.hpp"
 #include "run_of_model.hpp"
 
@@ -222,12 +223,7 @@ TEST_F(ResultFileTest, ViewsListChangesOfLabels) {
 }
 
 std::string refusal(const std::string& path, ResultFile::Access access) {
-    try {
-        const ResultFile file(path, access);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return testing::message_of([&] { ResultFile(path, access); });
 }
 
 TEST_F(ResultFileTest, RefusesUnreadableFiles) {

@@ -46,7 +46,7 @@ KeptRecord record(const std::string& channel, const std::string& unit, double fa
 }
 
 std::string refusal(const StudyRun& run, const std::vector<KeptRecord>& records) {
-    return testing::refusal_of([&] { fit_records(run, records); });
+    return testing::message_of([&] { fit_records(run, records); });
 }
 
 TEST(FitRecords, RecordsNeedNotHaveTheSameChannels) {

@@ -34,7 +34,7 @@ TEST(RunLength, OfATimeCountsNoPeriods) {
 TEST(RunLength, RefusesContradictions) {
     const Model model = load_model("impact-oscillator");
     const auto refusal = [&](const RunLengthRequest& request) {
-        return testing::refusal_of([&] { run_length(model, request); });
+        return testing::message_of([&] { run_length(model, request); });
     };
     EXPECT_THAT(refusal({.time = 1, .periods = 2}), HasSubstr("time and periods cannot be given together"));
     EXPECT_THAT(refusal({.periods = 0}), HasSubstr("periods: 0 is not a positive number"));

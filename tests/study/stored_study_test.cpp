@@ -149,7 +149,7 @@ TEST_F(StoredStudyTest, ShippedStudiesAreStoredWhole) {
 }
 
 std::string refusal_of_stored(const RunRecord& record) {
-    return testing::refusal_of([&] { stored_run(record); });
+    return testing::message_of([&] { stored_run(record); });
 }
 
 TEST_F(StoredStudyTest, TellsWhatIsWrongWithSettings) {

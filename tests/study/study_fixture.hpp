@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/message_of.hpp"
 #include "base/temporary_folder.hpp"
-#include "graze/base/input_error.hpp"
 #include "graze/study/runner.hpp"
 
 #include <gtest/gtest.h>
@@ -9,28 +9,9 @@
 #include <bit>
 #include <cstdint>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 namespace graze::testing {
-
-/// What refuses a study, or fails the first of its runs that does; empty: nothing.
-/// @param work may give the reports of runs
-template <class Work>
-std::string refusal_of(const Work& work) {
-    try {
-        if constexpr (std::is_same_v<decltype(work()), std::vector<RunReport>>) {
-            for (const RunReport& report : work())
-                if (!report.problem.empty())
-                    return report.problem + "; " + report.remedy;
-        } else {
-            work();
-        }
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
-}
 
 inline void expect_complete(const std::vector<RunReport>& reports) {
     for (const RunReport& report : reports)
@@ -89,8 +70,14 @@ protected:
         ResultFile file(path_, ResultFile::Access::write);
         return run_study(study, file, options);
     }
+    /// What refuses a study, or fails the first of its runs that does; empty: nothing.
     std::string refusal(const std::string& text) const {
-        return refusal_of([&] { return run(text); });
+        std::vector<RunReport> reports;
+        std::string refused = message_of([&] { reports = run(text); });
+        for (const RunReport& report : reports)
+            if (!report.problem.empty())
+                return report.problem + "; " + report.remedy;
+        return refused;
     }
 
     TemporaryFolder folder_;

@@ -67,7 +67,7 @@ TEST(StudyKeys, AreRefusedInRunsOfOtherKinds) {
         const std::vector<StudyKey> of_sweeps = study_keys(RunKind::sweep);
         if (std::any_of(of_sweeps.begin(), of_sweeps.end(), [&](const auto& one) { return one.name == key.name; }))
             continue;
-        const std::string refusal = testing::refusal_of([&] { parse_study(sweep_with(key.name + " = 1"), "s.toml"); });
+        const std::string refusal = testing::message_of([&] { parse_study(sweep_with(key.name + " = 1"), "s.toml"); });
         EXPECT_THAT(refusal, HasSubstr("runs of kind \"sweep\" have no `" + key.name + "`"));
     }
 }
@@ -77,7 +77,7 @@ TEST(StudyKeys, OfASweepAreTakenInTheirRangesAndRefusedBeyond) {
     const std::set<std::string> needs_others{"draws", "seed"};
     for (const StudyKey& key : study_keys(RunKind::sweep)) {
         const auto takes = [&](const std::string& value) {
-            return testing::refusal_of([&] { parse_study(sweep_with(key.name + " = " + value), "s.toml"); }).empty();
+            return testing::message_of([&] { parse_study(sweep_with(key.name + " = " + value), "s.toml"); }).empty();
         };
         if (needs_others.contains(key.name))
             continue;

@@ -182,7 +182,7 @@ along = { omega = [2, 3] }
                 ElementsAre("13: pictures.p.names.lowst: the picture shows nothing of that name",
                             "13: pictures.p.names.max_x: the picture shows nothing of that name"));
     const auto refusal = [&](const std::string& names) {
-        return testing::refusal_of([&] { parse_study(study + "run = \"a\"\nnames = " + names, "s.toml"); });
+        return testing::message_of([&] { parse_study(study + "run = \"a\"\nnames = " + names, "s.toml"); });
     };
     EXPECT_THAT(refusal("{ lowst = \"\" }\n"), HasSubstr("did you mean 'lowest'?"));
     EXPECT_THAT(refusal("{ zzzzzzzz = \"\" }\n"), HasSubstr("known are: a, lowest, omega, speed, x"));

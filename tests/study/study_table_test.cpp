@@ -46,7 +46,7 @@ sample = { low = { minima = "x" }, high = { maxima = "x" } }
 )";
 
 std::string refusal(const std::string& table) {
-    return testing::refusal_of([&] { parse_study(runs + table, "s.toml"); });
+    return testing::message_of([&] { parse_study(runs + table, "s.toml"); });
 }
 
 std::size_t column(const Table& table, const std::string& name) {
@@ -145,7 +145,7 @@ ratios = { of_sigma = "sigma", of_third = "third", of_none = "constant", of_word
 TEST(StudyTable, TellsWhatTheResultsDoNotHave) {
     const Study study = parse_study(runs + "[tables.t]\nrun = \"up\"\ncolumns = [\"speed\"]\n", "s.toml");
     const Results results(study, {"up"});
-    EXPECT_THAT(testing::refusal_of([&] { make_table(study.tables.at(0), results.file()); }),
+    EXPECT_THAT(testing::message_of([&] { make_table(study.tables.at(0), results.file()); }),
                 HasSubstr("s.toml:25:9: run 'up': no such column: speed"));
 }
 

@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 const std::string head = "name = \"s\"\nmodel = \"impact-oscillator\"\n";
 
 std::string refusal(const std::string& text) {
-    return testing::refusal_of([&] { parse_study(text, "s.toml"); });
+    return testing::message_of([&] { parse_study(text, "s.toml"); });
 }
 
 StudyRun only_run(const std::string& text) {

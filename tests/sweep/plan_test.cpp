@@ -1,7 +1,7 @@
 #include "graze/sweep/plan.hpp"
 
 #include "graze/model/catalogue.hpp"
-#include "sweep/model_parts.hpp"
+#include "trajectory/model_parts.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "graze/sweep/point_search.hpp"
-#include "sweep/model_parts.hpp"
+#include "trajectory/model_parts.hpp"
 
 #include <fmt/format.h>
 

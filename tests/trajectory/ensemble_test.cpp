@@ -4,6 +4,7 @@
 
 #include "closed_form.hpp"
 #include "simulate.hpp"
+#include "tape/problems.hpp"
 
 #include <gtest/gtest.h>
 
@@ -103,14 +104,6 @@ std::vector<Result> run_together(const Simulation& simulation, const std::vector
     for (std::size_t i = 0; i < tasks.size(); ++i)
         results.push_back(result_of(trajectories[i], transcripts[i]));
     return results;
-}
-
-std::vector<InstructionSet> supported_sets() {
-    std::vector<InstructionSet> sets;
-    for (const InstructionSet set : {InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512})
-        if (is_supported(set))
-            sets.push_back(set);
-    return sets;
 }
 
 /// Returns a time in which a model has many events.

@@ -1,7 +1,6 @@
 #include "graze/trajectory/recorder.hpp"
 
-#include "graze/model/catalogue.hpp"
-#include "graze/trajectory/trajectory.hpp"
+#include "trajectory/simulate.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -17,8 +16,7 @@ void run_switch(Observer& observer, bool minima = false) {
     const Simulation simulation(System(model), {section_probe(model, "phase0")}, {}, {.minima = minima});
     Trajectory trajectory(simulation, model.parameter_values(), borrowed(observer));
     trajectory.start(model.initial_state(), model.initial_mode, 0, 100);
-    JetSet jets(simulation, LaneKind::single);
-    run(trajectory, jets);
+    testing::run(trajectory);
     EXPECT_EQ(trajectory.outcome().ending, Ending::singular);
 }
 

@@ -1,8 +1,6 @@
 // Shipped models at random parameters end regularly: at the requested time, or by snap-through where the model has it.
 
-#include "graze/model/catalogue.hpp"
-#include "graze/model/model_file.hpp"
-#include "graze/trajectory/trajectory.hpp"
+#include "model_parts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,6 +12,8 @@
 
 namespace graze {
 namespace {
+
+using namespace graze::testing;
 
 struct Range {
     const char* parameter;
@@ -66,8 +66,7 @@ TEST_P(Robustness, RandomParametersEndRegularly) {
                                     {.tolerance = tolerances[sample % 4], .step_limit = 3'000'000});
         Trajectory trajectory(simulation, model.parameter_values());
         trajectory.start(model.initial_state(), model.initial_mode, 0, scenario.time);
-        JetSet jets(simulation, LaneKind::single);
-        run(trajectory, jets);
+        run(trajectory);
         const Ending ending = trajectory.outcome().ending;
         EXPECT_TRUE(ending == Ending::end_time ||
                     (scenario.gap_may_close && (ending == Ending::singular || ending == Ending::terminal)))
@@ -96,8 +95,7 @@ jumps.stop = { x = 0, v = 0 }
 )";
     for (const auto& [mode, event, next] :
          {std::array{"right", "leftwards", "left"}, {"left", "rightwards", "right"}}) {
-        text += std::string("[[transitions]]\njump = 'lose'\nmode = '") + mode + "'\nevent = '" + event +
-                "'\nnext = '" + next + "'\n";
+        text += transition(mode, event, next, "lose");
         if (with_rest)
             text += "chatter = { jump = 'stop', mode = 'rest' }\n";
     }
@@ -119,8 +117,7 @@ TEST(StandStill, CrossingsThatAccumulateBetweenTwoModesComeToRest) {
         Rest rest;
         Trajectory trajectory(simulation, model.parameter_values(), borrowed(rest));
         trajectory.start(model.initial_state(), model.initial_mode, 0, 100);
-        JetSet jets(simulation, LaneKind::single);
-        run(trajectory, jets);
+        run(trajectory);
         const double fall = std::sqrt(2 * 0.5 / 9.81), expected = fall * (1 + 0.9) / (1 - 0.9);
         EXPECT_EQ(trajectory.outcome().ending, with_rest ? Ending::end_time : Ending::chatter);
         // Positions are known to 1e-17, so the last part of the sum, flights of less than 1e-9, is known only roughly.

@@ -1,7 +1,7 @@
 // Several events on one surface: relays without hysteresis, pulses, sections that coincide with a barrier.
 
 #include "closed_form.hpp"
-#include "simulate.hpp"
+#include "model_parts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,12 +9,6 @@ using namespace graze;
 using namespace graze::testing;
 
 namespace {
-
-std::string transition(const std::string& mode, const std::string& event, const std::string& next,
-                       const std::string& jump = "identity") {
-    return fmt::format("[[transitions]]\nmode = \"{}\"\nevent = \"{}\"\nnext = \"{}\"\njump = \"{}\"\n", mode, event,
-                       next, jump);
-}
 
 /// u = +1 or -1 is the state of the relay; `force` drives it.
 Model relay(const std::string& kind, const std::string& states, const std::string& plus, const std::string& minus) {

@@ -26,13 +26,6 @@ inline Model shipped_with(const std::string& name, const Settings& settings = {}
     return model;
 }
 
-/// Returns the parameters of a model with some of them changed.
-inline std::vector<double> parameters_with(Model model, const Settings& settings) {
-    for (const auto& [parameter, value] : settings)
-        model.set_parameter(parameter, value);
-    return model.parameter_values();
-}
-
 inline SimulationOptions with_tolerance(double tolerance) {
     return {.tolerance = tolerance};
 }
