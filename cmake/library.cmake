@@ -35,6 +35,7 @@ foreach(folder IN LISTS GRAZE_FOLDERS)
         target_link_libraries(graze_${folder} PUBLIC ${GRAZE_NEEDS_${folder}})
         set(together ${sources})
         if(folder IN_LIST computing)
+            target_compile_options(graze_${folder} PRIVATE ${GRAZE_COMPILED_COMPUTING})
             use_prefix(graze_${folder} graze_prefix_computing)
             set(most 12)
             # Its instances of Eigen's templates take longer to compile than all else here.

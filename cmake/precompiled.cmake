@@ -20,5 +20,6 @@ set(headers <algorithm> <array> <cmath> <complex> <filesystem> <functional> <map
 add_prefix(graze_prefix_computing ${headers} <Eigen/Core> <Eigen/LU> <Eigen/QR>)
 add_prefix(graze_prefix_fast ${headers} <Eigen/Core>)
 if(TARGET graze_prefix_fast)
+    target_compile_options(graze_prefix_computing PRIVATE ${GRAZE_COMPILED_COMPUTING})
     target_compile_options(graze_prefix_fast PRIVATE ${GRAZE_COMPILED_FAST})
 endif()

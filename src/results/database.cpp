@@ -181,6 +181,19 @@ void Database::execute(const std::string& sql) const {
         throw_database_error(code, sqlite3_errmsg(database_.get()), path_);
 }
 
+void Database::copy_to(const std::string& path) const {
+    // The copy is attached while it is written, which is not allowed otherwise.
+    const int allowed = sqlite3_limit(database_.get(), SQLITE_LIMIT_ATTACHED, 1);
+    const auto forbid = [this, allowed] { sqlite3_limit(database_.get(), SQLITE_LIMIT_ATTACHED, allowed); };
+    try {
+        execute("VACUUM INTO " + text_literal(path));
+    } catch (...) {
+        forbid();
+        throw;
+    }
+    forbid();
+}
+
 std::int64_t Database::value(const std::string& sql) const {
     Statement statement = prepare(sql);
     return statement.step() ? statement.integer(0) : 0;

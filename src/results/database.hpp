@@ -99,6 +99,8 @@ public:
     void require_present() const;
     /// Executes one or several statements without results.
     void execute(const std::string& sql) const;
+    /// Writes all that is there to a new file. @throws InputError
+    void copy_to(const std::string& path) const;
     /// The whole number that a query gives.
     std::int64_t value(const std::string& sql) const;
     const std::string& path() const { return path_; }

@@ -193,6 +193,14 @@ void ResultFile::flush() {
     }
 }
 
+void ResultFile::copy_to(const std::string& path) {
+    flush();
+    std::error_code error;
+    if (std::filesystem::exists(path, error))
+        throw FileError(path, "the file is there already", "choose another name, or remove it first");
+    state_->database.copy_to(path);
+}
+
 std::vector<RunRecord> ResultFile::runs() const {
     const Database& database = state_->database;
     std::vector<RunRecord> runs;

@@ -113,10 +113,26 @@ void check_given(const Study& study) {
     }
 }
 
+/// @param names of all runs, of which the study has those that could be read
+void check_picture(const StudyReader& reader, const Study& study, const std::vector<std::string>& names,
+                   const StudyPicture& picture, const TomlEntry& entry) {
+    Mistakes mistakes;
+    bool all = true;
+    for (const auto* runs : {&picture.runs, &picture.over})
+        for (const std::string& name : *runs) {
+            mistakes.attempt([&] { require_run(name, names, picture.place); });
+            all = all && study.find_run(name);
+        }
+    mistakes.throw_noted();
+    if (all)
+        check_shown_names(reader, study, picture, entry);
+}
+
 /// Reads one study. After a mistake in a run, picture or table the others are read.
 class WholeStudy {
 public:
-    WholeStudy(const std::string& file, const ParameterValues& set) : reader_(file) {
+    WholeStudy(const std::string& file, const ParameterValues& set, const NamedModels& models)
+        : reader_(file, &models) {
         study_.file = file;
         study_.set = set;
         defaults_.given = set;
@@ -249,17 +265,7 @@ private:
     void add_picture(const TomlEntry& entry) {
         picture_names_.push_back(entry.name);
         study_.pictures.push_back(read_picture(reader_, entry));
-        const StudyPicture& picture = study_.pictures.back();
-        Mistakes mistakes;
-        bool all = true;
-        for (const auto* runs : {&picture.runs, &picture.over})
-            for (const std::string& name : *runs) {
-                mistakes.attempt([&] { require_run(name, names_, picture.place); });
-                all = all && study_.find_run(name);
-            }
-        mistakes.throw_noted();
-        if (all)
-            check_shown_names(reader_, study_, picture, entry);
+        check_picture(reader_, study_, names_, study_.pictures.back(), entry);
     }
 
     void add_table(const TomlEntry& entry) {
@@ -281,9 +287,20 @@ private:
 
 } // namespace
 
-Study parse_study(std::string_view text, const std::string& file, const ParameterValues& set) {
+Study parse_study(std::string_view text, const std::string& file, const ParameterValues& set,
+                  const NamedModels& models) {
     const toml::table root = parse_toml(text, file, "docs/study-format.md shows how a study is written");
-    return WholeStudy(file, set).read(root);
+    return WholeStudy(file, set, models).read(root);
+}
+
+StudyPicture parse_picture(std::string_view text, const std::string& name, const std::string& file,
+                           const Study& study) {
+    const toml::table root = parse_toml(text, file, "docs/study-format.md lists the keys of pictures");
+    const StudyReader reader(file);
+    const TomlEntry entry{name, "the picture", {file, 1, 1}, &root};
+    StudyPicture picture = read_picture(reader, entry);
+    check_picture(reader, study, names_of(study.runs), picture, entry);
+    return picture;
 }
 
 bool is_study_text(std::string_view text, const std::string& file) {

@@ -121,6 +121,13 @@ std::vector<std::string> StudyReader::strings(const TomlEntry& entry) const {
     return result;
 }
 
+const Model* StudyReader::given_model(const std::string& name) const {
+    if (!models_)
+        return nullptr;
+    const auto found = models_->find(name);
+    return found == models_->end() ? nullptr : &found->second;
+}
+
 const Model& StudyReader::no_model() {
     static const Model none;
     return none;

@@ -19,10 +19,14 @@ namespace graze {
 /// Reads the parts of a study file. A mistake throws InputError with its place, several mistakes throw InputErrors.
 class StudyReader {
 public:
-    explicit StudyReader(std::string file) : toml_(file), file_(std::move(file)) {}
+    /// @param models that the study can name, kept by the caller; null: none besides shipped ones and files
+    explicit StudyReader(std::string file, const NamedModels* models = nullptr)
+        : toml_(file), file_(std::move(file)), models_(models) {}
 
     const TomlReader& toml() const { return toml_; }
     const std::string& file() const { return file_; }
+    /// The model that the study was given under this name; null if there is none.
+    const Model* given_model(const std::string& name) const;
 
     /// A number, or an expression in the model's parameters.
     double number(const Model& model, const TomlEntry& entry) const;
@@ -93,6 +97,7 @@ public:
 private:
     TomlReader toml_;
     std::string file_;
+    const NamedModels* models_;
 };
 
 /// Settings of a study that hold for all of its runs.

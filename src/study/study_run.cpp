@@ -24,6 +24,8 @@ void set_standards(StudyRun& run) {
 namespace {
 
 Model model_of(const StudyReader& reader, const std::string& name, const Place& place, std::string& path) {
+    if (const Model* given = reader.given_model(name))
+        return *given;
     const bool of_file = is_model_path(name);
     path = of_file && std::filesystem::path(name).is_relative()
                ? (std::filesystem::path(reader.file()).parent_path() / name).string()

@@ -136,6 +136,8 @@ public:
     EstimateRecords estimates(const std::string& run) const;
     /// Commits all points that have been added.
     void flush();
+    /// Writes all that is there to another file, which must not exist. @throws InputError when it cannot be written
+    void copy_to(const std::string& path);
     /// Marks a run as complete.
     void complete_run(const std::string& run);
     /// Marks a run as failed; its points stay. @param failure why it failed and what to do

@@ -10,6 +10,8 @@
 #include "graze/study/motion_request.hpp"
 #include "graze/study/record_request.hpp"
 
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -148,6 +150,8 @@ void check_style(const FigureStyle& style, const Place& place);
 
 /// Values of parameters, by name, that replace those of a study and its models.
 using ParameterValues = std::vector<std::pair<std::string, double>>;
+/// Models that a study can name besides shipped ones and those in files; they come first.
+using NamedModels = std::map<std::string, Model, std::less<>>;
 
 struct Study {
     std::string name, text, source;
@@ -165,10 +169,15 @@ struct Study {
 /// @param file the name to use in messages; models are looked for relative to its folder
 /// @param set values that replace those of the study, in all models that have the parameters; expressions in the study
 ///        see these values
+/// @param models that it can name
 /// @throws InputErrors with the places of all mistakes, or InputError for a single one; without a place for a parameter
 ///         in `set` that no model has, or that every run varies
-Study parse_study(std::string_view text, const std::string& file, const ParameterValues& set = {});
+Study parse_study(std::string_view text, const std::string& file, const ParameterValues& set = {},
+                  const NamedModels& models = {});
 Study read_study(const std::string& path, const ParameterValues& set = {});
+/// Reads a picture of runs of a study from TOML text: its keys, as they stand in a table `[pictures.NAME]`.
+/// @param name of the picture @throws InputErrors, InputError as parse_study
+StudyPicture parse_picture(std::string_view text, const std::string& name, const std::string& file, const Study& study);
 /// True when a TOML text is a study rather than a model: it has a table `runs`. @throws InputError when it is no TOML
 bool is_study_text(std::string_view text, const std::string& file);
 /// Paths of the files that a study is read from: its own, those of models, tables of orbits and records.

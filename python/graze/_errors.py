@@ -1,0 +1,107 @@
+"""What the package raises. Each error says what is wrong and what to do, with the place where it is known."""
+
+from __future__ import annotations
+
+from typing import List
+
+
+class Error(Exception):
+    """Any error of the package.
+
+    Attributes: `problem` (what is wrong), `remedy` (what to do; may be empty), `file`, `line` and `column` of the place
+    (empty and 0 where they are not known; lines and columns count from 1), and `all`, the list of all mistakes where a
+    text has several, of which this one is the first.
+    """
+
+    def __init__(self, problem: str, remedy: str = "", file: str = "", line: int = 0, column: int = 0):
+        super().__init__(problem)
+        self.problem = problem
+        self.remedy = remedy
+        self.file = file
+        self.line = line
+        self.column = column
+        self.all: List[Error] = [self]
+
+    @property
+    def place(self) -> str:
+        """`file:line:column`, without what is not known."""
+        known = [str(number) for number in (self.line, self.column) if number]
+        return ":".join([self.file, *known] if self.file else known)
+
+    def __str__(self) -> str:
+        lines = []
+        for one in self.all if len(self.all) > 1 else [self]:
+            text = f"{one.place}: {one.problem}" if one.place else one.problem
+            lines.append(f"{text}; {one.remedy}" if one.remedy else text)
+        return "\n".join(lines)
+
+    def __reduce__(self):
+        return _restored, (type(self), self.problem, self.remedy, self.file, self.line, self.column, self.all[1:])
+
+
+def _restored(kind, problem, remedy, file, line, column, others):
+    error = kind(problem, remedy, file, line, column)
+    error.all += others
+    return error
+
+
+class InputError(Error, ValueError):
+    """What was given cannot be used: a text, an argument, a record."""
+
+
+class ModelError(InputError):
+    """A model has a mistake."""
+
+
+class StudyError(InputError):
+    """A study, or what was asked of a run, has a mistake."""
+
+
+class FileError(InputError, OSError):
+    """A file cannot be opened, read or written, or somebody else uses it."""
+
+    __str__ = Error.__str__  # OSError has one of its own
+
+
+class InstrumentError(Error):
+    """An instrument does not do what it should."""
+
+
+class OrderError(Error):
+    """Something was asked of an object before what it needs."""
+
+
+class InternalError(Error):
+    """The library contradicts itself: please report it."""
+
+
+class RunFailed(Error):
+    """A run has ended without a result, as when no periodic orbit was found. `run` has what was computed."""
+
+    run = None
+
+
+class Interrupted(KeyboardInterrupt):
+    """Computing was interrupted, as by Ctrl-C. `run` has what was computed until then; None: nothing."""
+
+    def __init__(self, run=None):
+        super().__init__("interrupted; the attribute `run` has what was computed" if run is not None else "interrupted")
+        self.run = run
+
+
+_KINDS = {"input": InputError, "file": FileError, "instrument": InstrumentError, "order": OrderError}
+
+
+def made(kind: str, problem: str, remedy: str, file: str, line: int, column: int) -> Error:
+    """Called by the compiled part for each error of the library."""
+    return _KINDS.get(kind, InternalError)(problem, remedy, file, line, column)
+
+
+def as_kind(error: InputError, kind: type) -> Error:
+    """The same error as one of a narrower kind; files that cannot be read stay what they are."""
+    if isinstance(error, FileError):
+        return error
+    others = [as_kind(one, kind) for one in error.all if one is not error]
+    result = kind(error.problem, error.remedy, error.file, error.line, error.column)
+    result.all = [result, *others[1:]] if len(error.all) > 1 else [result]
+    return result

@@ -1,0 +1,45 @@
+#include "graze/base/input_errors.hpp"
+#include "python/binding.hpp"
+
+#include <exception>
+
+namespace graze::python {
+
+namespace {
+
+py::object error_of(const Error& error) {
+    return py::module_::import("graze._errors")
+        .attr("made")(std::string(name_of(error.kind())), error.problem(), error.remedy(), error.place().file,
+                      error.place().line, error.place().column);
+}
+
+void raise(const Error& error) {
+    try {
+        py::object made = error_of(error);
+        if (const auto* several = dynamic_cast<const InputErrors*>(&error)) {
+            py::list all;
+            for (const InputError& one : several->all())
+                all.append(error_of(one));
+            made.attr("all") = all;
+        }
+        PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(made.ptr())), made.ptr());
+    } catch (py::error_already_set& other) {
+        other.restore();
+    }
+}
+
+} // namespace
+
+void bind_errors(py::module_& /*module*/) {
+    // NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11 gives the type
+    py::register_exception_translator([](std::exception_ptr thrown) {
+        try {
+            if (thrown)
+                std::rethrow_exception(thrown);
+        } catch (const Error& error) {
+            raise(error);
+        }
+    });
+}
+
+} // namespace graze::python

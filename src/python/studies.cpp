@@ -1,0 +1,199 @@
+#include "graze/picture/result_picture.hpp"
+#include "graze/study/run_summary.hpp"
+#include "graze/study/runner.hpp"
+#include "graze/study/stored_study.hpp"
+#include "graze/study/study_catalogue.hpp"
+#include "graze/study/study_keys.hpp"
+#include "graze/study/study_table.hpp"
+#include "python/attended.hpp"
+#include "python/figures.hpp"
+#include "python/tables.hpp"
+
+#include <mutex>
+
+namespace graze::python {
+
+namespace {
+
+using HeldModels = std::map<std::string, std::shared_ptr<HeldModel>>;
+
+NamedModels named(const HeldModels& models) {
+    NamedModels result;
+    for (const auto& [name, one] : models)
+        result.emplace(name, one->model);
+    return result;
+}
+
+std::string status_of(const RunReport& report) {
+    switch (report.outcome) {
+    case RunOutcome::interrupted:
+        return "interrupted";
+    case RunOutcome::failed:
+        return "failed";
+    case RunOutcome::skipped:
+        return "skipped";
+    case RunOutcome::complete:
+        break;
+    }
+    return "complete";
+}
+
+/// What is done, told by the threads that compute to the one that has called from Python.
+class ProgressNote {
+public:
+    void note(const StudyProgress& progress) {
+        const std::lock_guard lock(mutex_);
+        progress_ = progress;
+    }
+    void note_orbit(const std::string& run, double parameter, std::size_t number) {
+        const std::lock_guard lock(mutex_);
+        progress_.run = run;
+        progress_.done = number;
+        parameter_ = parameter;
+        followed_ = true;
+    }
+    /// With the interpreter's lock.
+    py::dict object() const {
+        const std::lock_guard lock(mutex_);
+        py::dict object;
+        object["run"] = progress_.run;
+        object["done"] = progress_.done;
+        object["points"] = progress_.points;
+        object["all_done"] = progress_.study_done;
+        object["all_points"] = progress_.study_points;
+        object["parameter"] = followed_ ? py::object(py::float_(parameter_)) : py::none();
+        return object;
+    }
+
+private:
+    mutable std::mutex mutex_;
+    StudyProgress progress_;
+    double parameter_ = 0;
+    bool followed_ = false;
+};
+
+py::list carried_out(const Study& study, ResultFile& file, int threads, const std::vector<std::string>& only,
+                     const py::object& told) {
+    ProgressNote progress;
+    std::vector<RunReport> reports;
+    attended(
+        [&](const std::function<bool()>& must_stop) {
+            RunnerOptions options;
+            options.jobs = threads;
+            options.only = only;
+            options.interrupted = must_stop;
+            options.progress = [&](const StudyProgress& made) { progress.note(made); };
+            options.orbit = [&](const std::string& run, const OrbitRecord& record) {
+                progress.note_orbit(run, record.point.parameter, record.number);
+            };
+            reports = run_study(study, file, options);
+        },
+        told.is_none() ? std::function<void()>() : [&] { told(progress.object()); });
+    py::list list;
+    for (const RunReport& report : reports) {
+        const RunSummary summary = summary_of(report, file);
+        py::dict object;
+        object["name"] = report.name;
+        object["kind"] = report.kind;
+        object["points"] = report.points;
+        object["computed"] = report.computed;
+        object["seconds"] = report.seconds;
+        object["status"] = status_of(report);
+        object["problem"] = report.problem;
+        object["remedy"] = report.remedy;
+        object["labels"] = summary.labels;
+        object["ends"] = summary.ends;
+        object["escapes"] = summary.escapes;
+        list.append(object);
+    }
+    return list;
+}
+
+py::list keys_of(const std::string& kind) {
+    const auto known = run_kind(kind);
+    if (!known)
+        throw InputError("there is no kind of runs '" + kind + "'", "use one of kinds_of_runs()");
+    py::list list;
+    for (const StudyKey& key : study_keys(*known)) {
+        py::dict object;
+        object["name"] = key.name;
+        object["type"] = key.type;
+        object["standard"] = key.standard;
+        object["meaning"] = key.meaning;
+        object["least"] = key.least;
+        object["most"] = key.most;
+        object["words"] = key.words;
+        list.append(object);
+    }
+    return list;
+}
+
+py::object figure_of(const Study& study, const ResultFile& file, const std::string& name) {
+    for (const StudyPicture& picture : study.pictures)
+        if (picture.name == name) {
+            ResultPicture made;
+            {
+                const py::gil_scoped_release unlocked;
+                made = make_picture(picture, file);
+            }
+            return object_of(made.figure);
+        }
+    throw InputError("the study has no picture '" + name + "'", "");
+}
+
+/// A picture of runs of a result file, asked for by the text of its keys: the figure, and the table made for it.
+py::tuple picture_of(const ResultFile& file, const std::string& text, const std::string& named) {
+    ResultPicture made;
+    {
+        const py::gil_scoped_release unlocked;
+        made = make_picture(parse_picture(text, "picture", named, stored_study(file)), file);
+    }
+    return py::make_tuple(object_of(made.figure), columns_of(made.table));
+}
+
+} // namespace
+
+void bind_studies(py::module_& module) {
+    py::class_<Study, std::shared_ptr<Study>>(module, "Study")
+        .def_static(
+            "parsed",
+            [](const std::string& text, const std::string& file, const ParameterValues& set, const HeldModels& models) {
+                return std::make_shared<Study>(parse_study(text, file, set, named(models)));
+            },
+            py::arg("text"), py::arg("file"), py::arg("set"), py::arg("models"))
+        .def_static(
+            "loaded",
+            [](const std::string& name_or_path, const ParameterValues& set) {
+                return std::make_shared<Study>(load_study(name_or_path, set));
+            },
+            py::arg("name_or_path"), py::arg("set"))
+        .def_static(
+            "stored", [](const ResultFile& file) { return std::make_shared<Study>(stored_study(file)); },
+            py::arg("file"))
+        .def_readonly("name", &Study::name)
+        .def_readonly("text", &Study::text)
+        .def_readonly("source", &Study::source)
+        .def_property_readonly("runs",
+                               [](const Study& self) {
+                                   std::vector<std::pair<std::string, std::string>> runs;
+                                   for (const StudyRun& run : self.runs)
+                                       runs.emplace_back(run.name, std::string(name_of(run.kind)));
+                                   return runs;
+                               })
+        .def_property_readonly("pictures",
+                               [](const Study& self) {
+                                   std::vector<std::string> names;
+                                   for (const StudyPicture& picture : self.pictures)
+                                       names.push_back(picture.name);
+                                   return names;
+                               })
+        .def("run", &carried_out, py::arg("file"), py::kw_only(), py::arg("threads"), py::arg("only"), py::arg("told"))
+        .def("figure", &figure_of, py::arg("file"), py::arg("name"));
+    module.def("picture", &picture_of, py::arg("file"), py::arg("text"), py::arg("named"));
+    module.def("study_keys", &keys_of);
+    module.def("kinds_of_runs", &kinds_of_runs);
+    module.def("shipped_studies", &shipped_studies);
+    module.def("shipped_study_text", &shipped_study_text);
+}
+
+} // namespace graze::python
