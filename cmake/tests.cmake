@@ -95,7 +95,7 @@ endforeach()
 
 add_test(
     NAME layers COMMAND bash ${PROJECT_SOURCE_DIR}/tests/layers/check_layers.sh ${PROJECT_SOURCE_DIR} ${GRAZE_FOLDERS}
-                        instrument program
+                        instrument python program
 )
 
 find_package(Python3 COMPONENTS Interpreter QUIET)

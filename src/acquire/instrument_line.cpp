@@ -15,7 +15,7 @@ struct EndingWords {
 };
 
 /// In the order of AcquisitionEnding; the last are for numbers that are none of them.
-constexpr EndingWords words[]{
+constexpr EndingWords ending_words[]{
     {"complete", "call it again to go on"},
     {"interrupted", "call it again to go on"},
     {"line-lost", "look at its cable and whether it is switched on, then call it again to go on"},
@@ -32,7 +32,7 @@ constexpr EndingWords words[]{
 };
 
 const EndingWords& word_of(AcquisitionEnding ending) {
-    return words[std::min(static_cast<std::size_t>(ending), std::size(words) - 1)];
+    return ending_words[std::min(static_cast<std::size_t>(ending), std::size(ending_words) - 1)];
 }
 
 } // namespace

@@ -17,11 +17,12 @@ namespace graze {
 namespace {
 
 constexpr const char* device_name = "the sample device";
-using Clock = std::chrono::steady_clock;
+using SampleClock = std::chrono::steady_clock;
 
 /// The time that comes after so many seconds.
-Clock::time_point after(double seconds) {
-    return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+SampleClock::time_point after(double seconds) {
+    return SampleClock::now() +
+           std::chrono::duration_cast<SampleClock::duration>(std::chrono::duration<double>(seconds));
 }
 
 constexpr std::size_t rows_at_once = 1024;
@@ -92,7 +93,7 @@ void TextSampleDevice::begin(std::size_t count, std::size_t block) {
 
 /// Enforces the deadline for all samples: each row may arrive in time, and yet they never end.
 void TextSampleDevice::require_time() const {
-    if (Clock::now() > latest_)
+    if (SampleClock::now() > latest_)
         fail_to_sample("has sent only {} of {} samples, which last {:.6g} s, in {} times that time", given_, wanted_,
                        static_cast<double>(wanted_) / rate_, patience_);
 }
@@ -153,8 +154,8 @@ bool TextSampleDevice::read(Samples& samples) {
 
 /// Discards lines until the device reports the end, or is silent for a while.
 void TextSampleDevice::drain() {
-    const Clock::time_point most = after(timeout_);
-    while (Clock::now() < most) {
+    const SampleClock::time_point most = after(timeout_);
+    while (SampleClock::now() < most) {
         if (interrupted_ && interrupted_())
             throw InstrumentError(AcquisitionEnding::interrupted, "interrupted");
         const auto line = line_->receive(part_of_timeout * timeout_);

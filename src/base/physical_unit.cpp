@@ -118,7 +118,7 @@ std::optional<PhysicalUnit> with_prefix(std::string_view text) {
     return std::nullopt;
 }
 
-[[noreturn]] void fail(std::string_view text) {
+[[noreturn]] void refuse_unit(std::string_view text) {
     throw InputError(fmt::format("'{}' is no unit", text), "write it as um, GPa, kg/m^3 or Pa s");
 }
 
@@ -157,9 +157,9 @@ PhysicalUnit physical_unit(std::string_view text) {
             const auto unit = with_prefix(factor.substr(0, hat));
             int power = 1;
             if (hat != std::string_view::npos && (!read_whole(factor.substr(hat + 1), power) || std::abs(power) > most))
-                fail(text);
+                refuse_unit(text);
             if (!unit || result.exponent > 1000 || result.exponent < -1000)
-                fail(text);
+                refuse_unit(text);
             result.exponent += sign * power * unit->exponent;
             result.factor *= std::pow(unit->factor, sign * power);
             for (std::size_t i = 0; i < result.dimension.size(); ++i)

@@ -23,7 +23,7 @@ FreeBounds bounds_of(const BranchSettings& settings, const BranchTest& test) {
 }
 
 /// Returns the index of a varying parameter among the unknowns.
-std::size_t place_of(const OrbitEquations& equations, ParameterId parameter) {
+std::size_t place_of_parameter(const OrbitEquations& equations, ParameterId parameter) {
     const std::vector<ParameterId>& free = equations.free();
     const auto which = std::find(free.begin(), free.end(), parameter) - free.begin();
     return equations.layout().parameter(static_cast<std::size_t>(which));
@@ -58,8 +58,8 @@ void test_bounds(const TestedPoint& point, std::vector<BranchTest>& tests) {
     for (BranchTest test : tests_of_bounds(point.settings, point.at.parameters, point.monitors)) {
         if (!test.monitor) {
             const ParameterId one = bounds_of(point.settings, test).parameter;
-            test.noise =
-                std::min(test.noise, round_off_of_bound * point.at.scales[index(place_of(point.equations, one))]);
+            test.noise = std::min(test.noise, round_off_of_bound *
+                                                  point.at.scales[index(place_of_parameter(point.equations, one))]);
         }
         tests.push_back(test);
     }
@@ -77,7 +77,7 @@ bool confirm_bound(BranchState& state, SpecialPoint& special, const BranchTest& 
     // Sets the parameter exactly to the bound: round-off, or the uncertainty of a nearby crossing, would leave it on
     // either side.
     constexpr double uncertain = 1e-8; // share of the step
-    const std::size_t place = place_of(state.problem().equations(), bounds.parameter);
+    const std::size_t place = place_of_parameter(state.problem().equations(), bounds.parameter);
     const double step = std::abs(state.continuation().point().u[place] - state.continuation().previous().u[place]);
     for (const auto& bound : {bounds.least, bounds.greatest})
         if (bound && std::abs(value - *bound) < uncertain * step)
@@ -114,7 +114,7 @@ bool leads_beyond_bounds(BranchState& state) {
     const BranchSettings& settings = state.settings();
     const ContinuationPoint& begun = state.continuation().point();
     const auto leaves = [&](ParameterId parameter, const auto& least, const auto& greatest) {
-        const std::size_t place = place_of(state.problem().equations(), parameter);
+        const std::size_t place = place_of_parameter(state.problem().equations(), parameter);
         const double rise = begun.tangent[place], value = begun.u[place];
         return (least && (value < *least || (rise < 0 && value <= *least))) ||
                (greatest && (value > *greatest || (rise > 0 && value >= *greatest)));

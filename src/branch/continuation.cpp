@@ -17,11 +17,11 @@ namespace graze {
 
 namespace {
 
-constexpr double growth = 2, shrinkage = 0.5;
+constexpr double step_growth = 2, shrinkage = 0.5;
 /// Corrections longer than this share of the step may lead onto another branch and are rejected.
 constexpr double largest_correction = 0.5;
 /// Largest correction of the first point on another branch, relative to its distance: branches may cross obliquely.
-constexpr double farthest = 1e3;
+constexpr double farthest_correction = 1e3;
 /// Steps whose convergence takes more iterations than this are followed by smaller ones.
 constexpr std::size_t good_iterations = 3;
 /// Distance to the first point, in scaled unknowns, below which a branch counts as closed.
@@ -120,7 +120,7 @@ bool Continuation::newton(std::vector<double>& u, std::span<const double> row, d
         constexpr double round_off = 1e-11;
         const bool small = size < options_.accuracy || (iterations > 2 && size < round_off && size > 0.5 * before);
         if (small || (iterations > 1 && size < 0.1 * before && size * size < options_.accuracy * 1e-4)) {
-            step_growth_ = iterations <= good_iterations ? growth : shrinkage;
+            step_growth_ = iterations <= good_iterations ? step_growth : shrinkage;
             if (!problem_->evaluate(u))
                 return false;
             if (small)
@@ -181,9 +181,9 @@ bool Continuation::chords(std::vector<double>& u, std::span<const double> row, d
         corrections_.push_back(step);
     }
     if (!problem_->derivatives_are_expensive())
-        step_growth_ = quick ? growth : shrinkage;
+        step_growth_ = quick ? step_growth : shrinkage;
     else if (!renewed) // additional corrections cost less than a shorter step
-        step_growth_ = iterations <= few ? growth : 1;
+        step_growth_ = iterations <= few ? step_growth : 1;
     else // the derivatives of the last point were too inaccurate
         step_growth_ = quick ? 1 : shrinkage;
     if (!problem_->evaluate(u) || !problem_->solve(row, 0, false, step_, nullptr))
@@ -305,7 +305,7 @@ bool Continuation::start_along(std::span<const double> u, std::span<const double
     entries_of(point.u) += distance * vector_of(direction) / length;
     std::vector<double> row = problem_->row_of(direction);
     outcome_ = ContinuationOutcome::no_convergence;
-    if (!correct(point.u, row, farthest * std::abs(distance), point.iterations))
+    if (!correct(point.u, row, farthest_correction * std::abs(distance), point.iterations))
         return false;
     outcome_ = ContinuationOutcome::singular;
     if (distance < 0)
@@ -327,7 +327,7 @@ std::vector<double> Continuation::predict(double length) const {
     constexpr double largest_offset = 0.5; // share of the step
     std::vector<double> result = numbers_of(vector_of(point_.u) + length * vector_of(point_.tangent));
     const double last = steps_ == 0 ? 0 : problem_->length_of(difference(point_.u, previous_.u));
-    if (!(last > 0) || !(length <= growth * last))
+    if (!(last > 0) || !(length <= step_growth * last))
         return result;
     std::vector<double> off = difference(on_cubic(previous_, point_, last, 1 + length / last), result);
     entries_of(off) -= problem_->product(off, point_.tangent) * vector_of(point_.tangent);
@@ -371,8 +371,8 @@ bool Continuation::step() {
         previous_ = std::move(point_);
         point_ = std::move(next);
         ++steps_;
-        const double by_angle = angle > 0 ? 0.7 * options_.largest_angle / angle : growth;
-        next_step_ = std::clamp(length * std::clamp(std::min(by_angle, step_growth_), shrinkage, growth),
+        const double by_angle = angle > 0 ? 0.7 * options_.largest_angle / angle : step_growth;
+        next_step_ = std::clamp(length * std::clamp(std::min(by_angle, step_growth_), shrinkage, step_growth),
                                 options_.smallest_step, longest);
         if (closes())
             outcome_ = ContinuationOutcome::closed;

@@ -10,11 +10,11 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t fewest = 6;
+constexpr std::size_t fewest_samples = 6;
 constexpr int most_rounds = 8;
 constexpr double settled = 0.015;
 /// Tolerance by which the zero may lie outside its bracket.
-constexpr double uncertain = 1e-3;
+constexpr double uncertain_share = 1e-3;
 
 struct Sample {
     double fraction;
@@ -52,7 +52,7 @@ double zero_of(const std::vector<Sample>& samples) {
     return 0.5 * (low + high);
 }
 
-ContinuationPoint point_at(const std::vector<Sample>& samples, double fraction) {
+ContinuationPoint point_between(const std::vector<Sample>& samples, double fraction) {
     const std::vector<double> weights = weights_at(samples, fraction);
     ContinuationPoint result;
     result.u.assign(samples[0].point.u.size(), 0.0);
@@ -107,14 +107,14 @@ std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, con
             if (std::isfinite(sample.value))
                 samples.push_back(std::move(sample));
         }
-        if (samples.size() < fewest)
+        if (samples.size() < fewest_samples)
             return std::nullopt;
         if (samples.front().value * samples.back().value < 0) {
             const double zero = zero_of(samples);
             if (std::abs(zero - guess) < reach * settled) {
                 const bool inside =
-                    zero > begin.fraction - reach * uncertain && zero < end.fraction + reach * uncertain;
-                return inside ? std::optional(point_at(samples, zero)) : std::nullopt;
+                    zero > begin.fraction - reach * uncertain_share && zero < end.fraction + reach * uncertain_share;
+                return inside ? std::optional(point_between(samples, zero)) : std::nullopt;
             }
             guess = zero;
             continue;

@@ -20,7 +20,7 @@ Orbit two_rounds(const System& system, const Orbit& orbit) {
 }
 
 /// Merges each segment that no event ends with the following one.
-Orbit joined(const Orbit& pieces) {
+Orbit joined_pieces(const Orbit& pieces) {
     Orbit orbit{{}, pieces.parameters, {}, {}, pieces.symmetry};
     for (std::size_t k = 0; k < pieces.segments(); ++k)
         if (k == 0 || pieces.signature[k - 1].end == SegmentEnd::event) {
@@ -62,7 +62,7 @@ std::optional<Orbit> with_contact_inserted(const Simulation& simulation, const S
         append(orbit, rounds.signature[k], rounds.starts[k], rounds.durations[k]);
     orbit.signature.back() = last;
     orbit.durations.back() = point.time;
-    return joined(orbit);
+    return joined_pieces(orbit);
 }
 
 Orbit begun_after_first_contact(const System& system, const Orbit& like, const FollowedMotion& motion, double period) {

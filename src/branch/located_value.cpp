@@ -40,15 +40,15 @@ std::vector<ParameterId> with_control(const Model& model, ParameterId control, c
     return all;
 }
 
-constexpr double touching = 1e-6;      // share of the function's size; touches are located far more accurately
-constexpr double slow_approach = 1e-4; // share of the typical rate
+constexpr double touching_share = 1e-6; // share of the function's size; touches are located far more accurately
+constexpr double slow_approach = 1e-4;  // share of the typical rate
 
 /// True when a segment ends with a contact of nearly zero speed, or near an extremum of another watched function.
 bool may_touch_at_ends(const Shooting& equations, const OrbitEvaluation& at, const Certificate& certificate) {
     for (std::size_t s = 0; s < equations.signature().size(); ++s) {
         const Segment& segment = equations.signature()[s];
         if (segment.end == SegmentEnd::event && !is_identity_transition(equations.system(), segment.index) &&
-            !(std::abs(certificate.approach_speeds[s]) > touching * equations.typical_rate(at, s)))
+            !(std::abs(certificate.approach_speeds[s]) > touching_share * equations.typical_rate(at, s)))
             return true;
     }
     return std::any_of(certificate.end_values.begin(), certificate.end_values.end(), [&](const EndValue& one) {
@@ -66,7 +66,7 @@ public:
                                 std::size_t event) {
         const OrbitMinimum* touch = nullptr;
         for (const OrbitMinimum& one : certificate.minima) {
-            if (!(std::abs(one.value) < touching * one.size))
+            if (!(std::abs(one.value) < touching_share * one.size))
                 continue;
             if (touch)
                 return std::nullopt;

@@ -109,7 +109,7 @@ bool has_pair_on_circle(BranchState& state, const SpecialPoint& special) {
     return multipliers_agree(state, special, pair_off_circle, close);
 }
 
-std::string in_words(const FoldForm& form, const BranchState& state) {
+std::string form_in_words(const FoldForm& form, const BranchState& state) {
     if (!form.turns)
         return "the side on which two orbits are is not decided: a is zero up to round-off";
     const std::string side = fmt::format("two orbits at {} {}", form.above ? "greater" : "smaller",
@@ -120,7 +120,7 @@ std::string in_words(const FoldForm& form, const BranchState& state) {
 
 /// @param supercritical sign of the coefficient for which the bifurcating orbit is stable; @param several reason why it
 /// may be undefined
-std::string in_words(const Criticality& form, const char* name, int supercritical, const char* several) {
+std::string form_in_words(const Criticality& form, const char* name, int supercritical, const char* several) {
     if (!form.is_simple)
         return fmt::format("{} has no value: {}", name, several);
     if (!form.is_decided())
@@ -160,7 +160,7 @@ bool confirm_fold(BranchState& state, SpecialPoint& special, const BranchTest&) 
     const OrbitProblem& problem = state.problem();
     if (special.located && state.settings().free.empty())
         if (const auto form = fold_form(problem.equations(), problem.evaluation()))
-            special.detail = in_words(*form, state);
+            special.detail = form_in_words(*form, state);
     return special.located && has_multiplier(state, special, 1);
 }
 
@@ -182,7 +182,7 @@ void test_asymmetry(const TestedPoint& point, std::vector<BranchTest>& tests) {
 bool confirm_flip(BranchState& state, SpecialPoint& special, const BranchTest&) {
     SecondVariation variation(state.problem().equations());
     if (const auto form = flip_criticality(state.problem().equations(), state.problem().evaluation(), variation))
-        special.detail = in_words(*form, "c", 1, "two multipliers are -1");
+        special.detail = form_in_words(*form, "c", 1, "two multipliers are -1");
     return special.located && has_multiplier(state, special, -1);
 }
 
@@ -242,7 +242,7 @@ void test_torus(const TestedPoint& point, std::vector<BranchTest>& tests) {
 bool confirm_torus(BranchState& state, SpecialPoint& special, const BranchTest&) {
     SecondVariation variation(state.problem().equations());
     if (const auto form = torus_criticality(state.problem().equations(), state.problem().evaluation(), variation))
-        special.detail = in_words(*form, "d", -1, "two pairs are one");
+        special.detail = form_in_words(*form, "d", -1, "two pairs are one");
     return special.located && has_pair_on_circle(state, special);
 }
 

@@ -153,7 +153,7 @@ void null_vectors(const MatrixXcd& matrix, VectorXcd& right, VectorXcd& left) {
 constexpr double round_off_of_product = 1e-12;
 /// Relative size of the product of both null vectors below which the multiplier counts as multiple; the null vectors of
 /// a located point are less accurate than round-off.
-constexpr double least_product = 1e-9;
+constexpr double least_product_of_vectors = 1e-9;
 
 /// Computes F_3(q, q, q*) + 2 F_2(q, z_11) + F_2(q*, z_20), projected on the critical direction. z_11 and z_20 are the
 /// second-order corrections of the mean and of the second harmonic.
@@ -185,7 +185,8 @@ std::optional<Criticality> cubic_coefficient(const OrbitEquations& equations, co
     const VectorXcd mean_spread = at_rest.solve_transposed(by_mean), second_spread = twice.solve_transposed(by_second);
     const double spread = 2 * mean_spread.norm() + second_spread.norm();
     const double error = spread * size + with_q.norm() * (second.norm() + 2 * mean.norm()) + parts * q.norm();
-    const bool is_simple = std::abs(product) > least_product * left.norm() * (expansion.closing() * q).norm();
+    const bool is_simple =
+        std::abs(product) > least_product_of_vectors * left.norm() * (expansion.closing() * q).norm();
     const Criticality result{-(third + rest) / product, round_off_of_product * error / std::abs(product), is_simple};
     if (!std::isfinite(result.form.real()) || !std::isfinite(result.form.imag()) || !std::isfinite(result.error))
         return std::nullopt;
@@ -218,8 +219,8 @@ std::optional<FoldForm> fold_form(const OrbitEquations& equations, const OrbitEv
     if (!fold.right.allFinite() || !expansion.second(fold.left, fold.right, second, parts))
         return std::nullopt;
     constexpr double least = 1e-9; // share of the terms of the second derivative
-    const bool is_simple =
-        std::abs(fold.product) > least_product * fold.left.norm() * (expansion.closing() * fold.right).norm();
+    const bool is_simple = std::abs(fold.product) >
+                           least_product_of_vectors * fold.left.norm() * (expansion.closing() * fold.right).norm();
     // The equations are the next start minus the image of this one, hence the minus signs.
     const double coefficient = -second / (2 * fold.product), sign = coefficient < 0 ? -1 : 1;
     const double rate = -sign * expansion.by_parameter(fold.left, at) / fold.product;

@@ -14,7 +14,7 @@ namespace {
 /// Scaled distance of the first point on another branch.
 constexpr double first_distance = 1e-2;
 /// Distances that are tried, in units of the given one.
-constexpr double factors[] = {1, 0.1, 4, 0.01};
+constexpr double factors_of_distance[] = {1, 0.1, 4, 0.01};
 /// Half orders of magnitude that are tried for states that leave zero: 15 decades below and above the other states.
 constexpr int half_decades = 30;
 
@@ -81,8 +81,8 @@ double OtherBranchSearch::size_of(const Eigen::VectorXd& change) const {
 }
 
 bool OtherBranchSearch::next() {
-    while (!leaves_zero_ && tried_ < static_cast<int>(std::size(factors)))
-        if (reaches_other(direction_, factors[tried_++] * distance_))
+    while (!leaves_zero_ && tried_ < static_cast<int>(std::size(factors_of_distance)))
+        if (reaches_other(direction_, factors_of_distance[tried_++] * distance_))
             return true;
     OrbitProblem& problem = state_.problem();
     while (leaves_zero_ && tried_ <= 2 * half_decades) {

@@ -132,7 +132,7 @@ Orbit at_rest_in(const Orbit& orbit, const HopfPoint& hopf, ParameterId paramete
 }
 
 /// Returns the arclength between a point of the current problem and the orbit at rest.
-double distance_to(BranchState& state, const ContinuationPoint& from, const HopfPoint& hopf) {
+double distance_to_equilibrium(BranchState& state, const ContinuationPoint& from, const HopfPoint& hopf) {
     OrbitProblem& problem = state.problem();
     const std::vector<double> rest =
         problem.unknowns_of(at_rest_in(problem.orbit_of(from.u), hopf, state.settings().parameter));
@@ -158,7 +158,7 @@ std::optional<HopfPoint> hopf_ahead(BranchState& state, const ContinuationPoint&
         hopf_near(state.system(), orbit.signature[0].mode, mean, orbit.parameters, state.settings().parameter,
                   orbit.period(), state.problem().scales().first(mean.size()));
     if (!hopf || std::abs(hopf->period - orbit.period()) > same_period * orbit.period() ||
-        !(distance_to(state, from, *hopf) < farthest * length))
+        !(distance_to_equilibrium(state, from, *hopf) < farthest * length))
         return std::nullopt;
     return hopf;
 }
@@ -203,7 +203,7 @@ bool shrinks_to(const HopfPoint& hopf, ParameterId parameter, const Orbit& befor
 std::optional<SpecialPoint> end_in(BranchState& state, const HopfPoint& hopf) {
     constexpr double round_off = 1e-13;
     ContinuationPoint at = state.continuation().point();
-    const double arclength = state.arclength(at.arclength) + distance_to(state, at, hopf);
+    const double arclength = state.arclength(at.arclength) + distance_to_equilibrium(state, at, hopf);
     at.u = state.problem().unknowns_of(at_rest_in(state.orbit(), hopf, state.settings().parameter));
     const auto there = state.describe(at);
     if (!there)
@@ -259,7 +259,7 @@ bool ShrinkingOrbit::turn(const BranchPoint& from) {
         return false;
     approached_ = hopf_;
     Continuation& continuation = state_->continuation();
-    continuation.set_next_step(approach_share * distance_to(*state_, continuation.point(), *hopf_));
+    continuation.set_next_step(approach_share * distance_to_equilibrium(*state_, continuation.point(), *hopf_));
     return true;
 }
 

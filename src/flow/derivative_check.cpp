@@ -88,8 +88,8 @@ private:
     std::size_t states() const { return system_.states(); }
 
     /// @param outputs what the values are, such as "the rate of v"; @param exact derivatives by all inputs, row by row
-    void compare(const std::string& part, const std::vector<std::string>& outputs, const Values& values,
-                 const std::vector<double>& exact) {
+    void compare_derivatives(const std::string& part, const std::vector<std::string>& outputs, const Values& values,
+                             const std::vector<double>& exact) {
         std::vector<double> sizes(outputs.size(), 0.0);
         for (std::size_t k = 0; k < outputs.size(); ++k)
             for (std::size_t i = 0; i < inputs_.size(); ++i)
@@ -117,8 +117,8 @@ private:
             findings_.push_back({part, output, all[0], all[0], 0});
             return;
         }
-        compare(part, {output}, [&](const auto& inputs) { return std::vector{function(inputs)[0]}; },
-                {all.begin() + 1, all.end()});
+        compare_derivatives(part, {output}, [&](const auto& inputs) { return std::vector{function(inputs)[0]}; },
+                            {all.begin() + 1, all.end()});
     }
 
     void check_mode(std::size_t m) {
@@ -184,7 +184,7 @@ private:
         std::vector<std::string> outputs;
         for (std::size_t i = 0; i < states(); ++i)
             outputs.push_back(fmt::format("{} after {:.3g}", names_[i], duration));
-        compare(
+        compare_derivatives(
             part, outputs,
             [&](const std::vector<double>& inputs) {
                 auto [state, given] = split(inputs);
@@ -207,7 +207,7 @@ private:
         std::vector<std::string> outputs;
         for (std::size_t i = 0; i < states(); ++i)
             outputs.push_back(names_[i] + " behind");
-        compare(
+        compare_derivatives(
             "jumps." + system_.model().jumps[j].name, outputs,
             [&](const std::vector<double>& inputs) { return jump.map(inputs); }, exact);
     }

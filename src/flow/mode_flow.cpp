@@ -11,7 +11,7 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t most_steps = 2'000'000;
+constexpr std::size_t most_steps_of_mode = 2'000'000;
 /// A step shorter than this fraction of an arc means that the solution ceases to exist.
 constexpr double smallest_share = 1e-14;
 /// Fraction of an arc over which sizes are measured where the initial state does not show them.
@@ -126,7 +126,7 @@ ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double
     previous_ = 0;
     dormant_states_.begin();
     for (std::size_t count = 0; remaining != 0; ++count) {
-        if (count >= most_steps)
+        if (count >= most_steps_of_mode)
             return Ending::too_long;
         const Jet& jet = jets_.computed(mode, state);
         seen_ = 0;
@@ -179,7 +179,7 @@ ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double
     previous_ = 0;
     dormant_states_.begin();
     for (std::size_t count = 0; remaining != 0; ++count) {
-        if (count >= most_steps)
+        if (count >= most_steps_of_mode)
             return Ending::too_long;
         Jet& jet = jets_.computed(mode, state);
         seen_ = 0;

@@ -9,7 +9,7 @@ namespace graze {
 
 namespace {
 
-constexpr double unit = 0x1p-53;
+constexpr double roundoff_unit = 0x1p-53;
 /// Factor of the bounds on round-off, which are first-order bounds for one evaluation: coefficients have round-off of
 /// their own, which the recurrences amplify.
 constexpr double roundoff_allowance = 16;
@@ -88,7 +88,7 @@ void StepCheck::find_errors(double s) {
         return;
     errors_known_ = true;
     for (std::size_t i = 0; i < states_; ++i)
-        input_errors_[i] = 4 * unit * size_at(series_[i], order_, std::abs(s));
+        input_errors_[i] = 4 * roundoff_unit * size_at(series_[i], order_, std::abs(s));
     system_.mode(mode_).evidence.error_bounds(inputs_, input_errors_, errors_, work_);
 }
 
@@ -112,7 +112,8 @@ double StepCheck::misfit_of_rates(double s) {
         double allowed = allowance * tolerance_ * size_of_state(i, length);
         if (!(difference <= allowed)) {
             find_errors(s);
-            allowed += roundoff_allowance * (length * errors_[i] + unit * sizes_at(series_[i], order_, length).slope);
+            allowed +=
+                roundoff_allowance * (length * errors_[i] + roundoff_unit * sizes_at(series_[i], order_, length).slope);
         }
         keep_most(most, difference / allowed);
     }
@@ -133,7 +134,7 @@ double StepCheck::misfit_of_values(double s) {
         double allowed = value_allowance * tolerance_ * (size + smallest_size);
         if (!(difference <= allowed)) {
             find_errors(s);
-            allowed += roundoff_allowance * (errors_[j] + unit * sum);
+            allowed += roundoff_allowance * (errors_[j] + roundoff_unit * sum);
         }
         keep_most(most, difference / allowed);
     }
@@ -146,8 +147,8 @@ double StepCheck::misfit_of_sums(double s) {
     const double length = std::abs(s);
     for (std::size_t i = 0; i < states_; ++i) {
         const double size = size_of_state(i, length);
-        if (const double noise = 4 * unit * size_at(series_[i], order_, length); noise > 0)
-            keep_most(most, noise / (std::max(tolerance_, 64 * unit) * size));
+        if (const double noise = 4 * roundoff_unit * size_at(series_[i], order_, length); noise > 0)
+            keep_most(most, noise / (std::max(tolerance_, 64 * roundoff_unit) * size));
     }
     return most;
 }

@@ -13,7 +13,7 @@ namespace graze {
 
 namespace {
 
-constexpr double small = 1e-6; // relative tolerance; touches are located to about 1e-10
+constexpr double small_change = 1e-6; // relative tolerance; touches are located to about 1e-10
 
 /// The vector field of another mode minus that of the touching mode, at a touch, with derivatives.
 struct FieldDifference {
@@ -116,12 +116,13 @@ bool is_identity_on_surface(const System& system, std::size_t jump, const TouchS
             change(index(compiled.entries[k].row), index(compiled.entries[k].column)) += entries[k];
     change -= change * sizes.off_surface(geometry) * geometry.gradient.head(n).transpose();
     const Eigen::VectorXd& units = sizes.scales();
-    return (units.cwiseInverse().asDiagonal() * change * units.asDiagonal()).norm() <= small;
+    return (units.cwiseInverse().asDiagonal() * change * units.asDiagonal()).norm() <= small_change;
 }
 
 /// Returns why the jumps into the sliding mode and back are not negligible; empty if they are.
-std::string problem_of(const TouchFunctions& functions, const TouchState& touch, const TouchGeometry& geometry,
-                       const TouchSizes& sizes, std::span<const std::size_t> contacts, const Eigen::VectorXd& gain) {
+std::string problem_of_effect(const TouchFunctions& functions, const TouchState& touch, const TouchGeometry& geometry,
+                              const TouchSizes& sizes, std::span<const std::size_t> contacts,
+                              const Eigen::VectorXd& gain) {
     const System& system = functions.system();
     const Eigen::VectorXd& units = sizes.scales();
     for (const std::size_t contact : contacts) {
@@ -137,7 +138,7 @@ std::string problem_of(const TouchFunctions& functions, const TouchState& touch,
         if (!by_square)
             return fmt::format("the jump '{}' has no derivatives at the touch", system.model().jumps[jump].name);
         if (!((2 * geometry.acceleration * *by_square).cwiseQuotient(units).norm() <=
-              small * gain.cwiseQuotient(units).norm()))
+              small_change * gain.cwiseQuotient(units).norm()))
             return refused;
     }
     return {};
@@ -174,7 +175,7 @@ ContactEffect compliant_contact(const TouchFunctions& functions, const TouchStat
     };
     const Eigen::VectorXd& units = sizes.scales();
     const double force = (difference.value.cwiseQuotient(units) * sizes.time()).norm();
-    if (!difference.derivatives.allFinite() || !difference.second.allFinite() || !(force <= small))
+    if (!difference.derivatives.allFinite() || !difference.second.allFinite() || !(force <= small_change))
         return fail(fmt::format("the vector field of mode '{}' is different at the touch", name));
     const double a = geometry.acceleration;
     const Eigen::VectorXd gradient = geometry.gradient.head(n), rate_gradient = geometry.rate_gradient.head(n);
@@ -187,10 +188,10 @@ ContactEffect compliant_contact(const TouchFunctions& functions, const TouchStat
     const Eigen::MatrixXd whole = units.cwiseInverse().asDiagonal() * difference.derivatives * units.asDiagonal();
     if (!(whole.norm() > 0))
         return fail("the contact changes nothing");
-    if (!(rest.norm() <= small * whole.norm()))
+    if (!(rest.norm() <= small_change * whole.norm()))
         return fail(fmt::format("the field of mode '{}' is not that of mode '{}' wherever the surface is touched", name,
                                 functions.system().model().modes[touch.mode].name));
-    if (!(std::abs(gradient.dot(damping)) <= small))
+    if (!(std::abs(gradient.dot(damping)) <= small_change))
         return fail(fmt::format("mode '{}' changes the rate of event '{}'", name,
                                 functions.system().model().events[touch.event].name));
     const Eigen::VectorXd bracket = difference.second - 2 * a * (difference.of_field * damping);
@@ -216,7 +217,8 @@ ContactEffect sliding_contact(const TouchFunctions& functions, const TouchState&
     };
     const Eigen::VectorXd& units = sizes.scales();
     if (!difference.derivatives.allFinite() || !difference.second.allFinite() || !difference.of_field.allFinite() ||
-        !std::isfinite(difference.jerk) || !((difference.value.cwiseQuotient(units) * sizes.time()).norm() <= small))
+        !std::isfinite(difference.jerk) ||
+        !((difference.value.cwiseQuotient(units) * sizes.time()).norm() <= small_change))
         return fail(fmt::format("the vector field of mode '{}' is different at the touch", name));
     const double a = geometry.acceleration;
     const Eigen::VectorXd gradient = geometry.gradient.head(n), rate_gradient = geometry.rate_gradient.head(n);
@@ -226,19 +228,19 @@ ContactEffect sliding_contact(const TouchFunctions& functions, const TouchState&
         return (units.cwiseInverse().asDiagonal() * matrix * units.asDiagonal()).norm();
     };
     if (!(scaled(difference.derivatives - off * gradient.transpose() - slowing * rate_gradient.transpose()) <=
-          small * scaled(difference.derivatives)))
+          small_change * scaled(difference.derivatives)))
         return fail(
             fmt::format("the field of mode '{}' is not that of mode '{}' wherever the surface is touched", name, own));
     // Second derivative of D, on the surface.
     const Eigen::VectorXd bend = difference.second - a * off - difference.jerk * slowing;
     const double terms = gradient.cwiseAbs().dot(difference.second.cwiseAbs() + a * off.cwiseAbs() +
                                                  std::abs(difference.jerk) * slowing.cwiseAbs());
-    if (!(std::abs(gradient.dot(slowing) + 1) <= small) ||
-        !(std::abs(gradient.dot(bend)) <= small * (terms + std::abs(a) / sizes.time())))
+    if (!(std::abs(gradient.dot(slowing) + 1) <= small_change) ||
+        !(std::abs(gradient.dot(bend)) <= small_change * (terms + std::abs(a) / sizes.time())))
         return fail(
             fmt::format("mode '{}' does not stay on the surface of event '{}'", name, model.events[touch.event].name));
     result.gain = -slowing;
-    result.reason = problem_of(functions, touch, geometry, sizes, contacts, result.gain);
+    result.reason = problem_of_effect(functions, touch, geometry, sizes, contacts, result.gain);
     const Eigen::VectorXd by_time =
         bend / 6 - a / 3 * (rate_gradient.dot(slowing) * slowing + difference.of_field * slowing);
     result.next = by_time * std::pow(2 / a, 1.5);

@@ -13,7 +13,7 @@ namespace graze {
 
 namespace {
 
-double range_of(const Period& period, std::size_t channel) {
+double range_of_samples(const Period& period, std::size_t channel) {
     const std::vector<double>& values = period.samples.values[channel];
     const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
     return *greatest - *least;
@@ -34,7 +34,7 @@ public:
         turn_ = 2 * std::numbers::pi * static_cast<double>(periods.size());
         decay_ = 0;
         if (periods.size() > 1)
-            decay_ = std::log(range_of(periods.front(), channel) / range_of(periods.back(), channel)) *
+            decay_ = std::log(range_of_samples(periods.front(), channel) / range_of_samples(periods.back(), channel)) *
                      static_cast<double>(periods.size()) / static_cast<double>(periods.size() - 1);
     }
 

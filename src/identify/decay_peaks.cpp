@@ -20,7 +20,7 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t most_samples = 10'000'000;
+constexpr std::size_t most_samples_of_decay = 10'000'000;
 
 /// Estimate of the final position of a channel: its mean over the second half of the record.
 double level_of(const std::vector<double>& values) {
@@ -300,7 +300,7 @@ DecayPeaks decay_peaks(SampleSource& source, std::size_t channel, std::size_t mo
     const RecordHeader header = source.header();
     require_index(channel, header.channels.size(), "channel");
     const std::string& name = header.channels[channel].name;
-    const Samples samples = read_all(source, most_samples);
+    const Samples samples = read_all(source, most_samples_of_decay);
     if (samples.rows() == 0)
         throw InputError("the record has no rows", "give one with rows, or a larger part of it");
     const double level = level_of(samples.values[channel]);

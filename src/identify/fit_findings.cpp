@@ -95,7 +95,7 @@ std::vector<FittedNumber> numbers_at(const FitRows& rows, const FitPoint& point,
 }
 
 /// The variance of the rows' noise; for robust losses the factor that replaces it in the covariance (Huber, chapter 7).
-double variance_of(const FitRows& rows, const Residuals& residuals, double freedom) {
+double variance_of_residuals(const FitRows& rows, const Residuals& residuals, double freedom) {
     constexpr double huber = 1.345, cauchy = 2.385;
     double squares = 0, slopes = 0, count = 0;
     for (std::size_t o = 0; o < residuals.of_output.size(); ++o)
@@ -278,7 +278,7 @@ void describe(FitRows& rows, const FitPoint& point, const std::vector<PieceRows>
         fit.parameters[task.parameters[j].parameter.place()] =
             point.shared[static_cast<Eigen::Index>(j)] * rows.layout.shared_scale[static_cast<Eigen::Index>(j)];
     describe_outputs(rows, residuals, fit);
-    const double variance = variance_of(rows, residuals, fit.freedom);
+    const double variance = variance_of_residuals(rows, residuals, fit.freedom);
     if (rows.loss() == FitLoss::squares)
         return describe_numbers(rows, point, known, joint, variance, fit);
     rows.robust = false; // the covariance is that of least squares, times the variance for the loss

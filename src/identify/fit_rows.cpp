@@ -14,7 +14,7 @@ namespace {
 
 /// Distance of the two sides of a contact, in standard deviations, above which a reading is assigned to the nearer
 /// side.
-constexpr double distinct = 6;
+constexpr double distinct_distance = 6;
 
 std::vector<double> ranges_of(const FitTask& task) {
     std::vector<double> least(task.outputs.size(), std::numeric_limits<double>::infinity()), greatest(least.size());
@@ -261,7 +261,7 @@ bool FitRows::is_beyond(const FitRecord& record, std::size_t sample, const Eigen
         there += other * other;
         apart = std::max(apart, std::abs(one - other));
     }
-    return there < here && apart > distinct;
+    return there < here && apart > distinct_distance;
 }
 
 double FitRows::scale_of(const FitPiece& piece, Eigen::Index column) const {

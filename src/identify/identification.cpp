@@ -32,7 +32,7 @@ void set_variances(Identification& found) {
         found.covariance[i * count + i] = found.values[i].estimate.error * found.values[i].estimate.error;
 }
 
-double mean_of(const std::vector<double>& values) {
+double mean_of_estimates(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
@@ -259,7 +259,7 @@ Identification identify_coupling(const EachRecord& records, const Identification
         current = usable.header().channels[i];
         const Samples all = read_all(usable, most_samples);
         if (settings.one_load_a_record)
-            loads.push_back({mean_of(all.values[q]), mean_of(all.values[i])});
+            loads.push_back({mean_of_estimates(all.values[q]), mean_of_estimates(all.values[i])});
         for (std::size_t row = 0; row < all.rows() && !settings.one_load_a_record; ++row)
             loads.push_back({all.values[q][row], all.values[i][row]});
     });

@@ -11,13 +11,13 @@ namespace graze {
 
 namespace {
 
-double dot(const std::vector<double>& one, const std::vector<double>& other) {
+double dot_product(const std::vector<double>& one, const std::vector<double>& other) {
     return std::inner_product(one.begin(), one.end(), other.begin(), 0.0);
 }
 
 /// Subtracts the component of a column along a unit vector.
 void take_out(std::vector<double>& column, const std::vector<double>& direction) {
-    const double along = dot(column, direction);
+    const double along = dot_product(column, direction);
     for (std::size_t i = 0; i < column.size(); ++i)
         column[i] -= along * direction[i];
 }
@@ -35,12 +35,12 @@ public:
             left_.push_back(weights_.back() * (one.after + e * one.before));
         }
         directions_ = {column([](double v, double) { return v; })};
-        information_ = dot(directions_.front(), directions_.front());
+        information_ = dot_product(directions_.front(), directions_.front());
         normalise(directions_.front());
         take_out(left_, directions_.front());
     }
 
-    double squares() const { return dot(left_, left_); }
+    double squares() const { return dot_product(left_, left_); }
     /// Inverse variance of the coefficient by the velocities' own errors.
     double information() const { return information_; }
     std::size_t count() const { return left_.size(); }
@@ -56,7 +56,7 @@ public:
         const std::size_t further = directions.size() - 1;
         if (further == 0 || count() < 2 + further)
             return 1;
-        const double rest = dot(left, left);
+        const double rest = dot_product(left, left);
         const std::size_t freedom = count() - 1 - further;
         if (chi_square_tail(rest, freedom) < too_much)
             return 1;
@@ -67,7 +67,7 @@ public:
 private:
     static constexpr double least_variance = 1e-300;
     static bool normalise(std::vector<double>& column) {
-        const double length = std::sqrt(dot(column, column));
+        const double length = std::sqrt(dot_product(column, column));
         for (double& value : column)
             value = length > 0 ? value / length : 0;
         return length > 0;
@@ -79,7 +79,7 @@ private:
         normalise(column);
         for (const std::vector<double>& direction : directions)
             take_out(column, direction);
-        if (!(dot(column, column) > independent * independent) || !normalise(column))
+        if (!(dot_product(column, column) > independent * independent) || !normalise(column))
             return;
         take_out(left, column);
         directions.push_back(std::move(column));

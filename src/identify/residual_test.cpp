@@ -19,7 +19,7 @@ namespace graze {
 
 namespace {
 
-constexpr double deviations = 4;             ///< a level of 1/16,000 for normal variables
+constexpr double significant_deviations = 4; ///< a level of 1/16,000 for normal variables
 constexpr double small_chance = 1e-5;        ///< level for the largest line of the periodogram
 constexpr std::size_t fewest_residuals = 12; ///< fewer residuals are not tested
 constexpr double far_off = 6;                ///< outliers, in standard deviations
@@ -135,15 +135,15 @@ double change_of_size(std::span<const double> left) {
         variance += (std::max(fourth, of_normal) - 1) / count;
         sign = -sign;
     }
-    return std::abs(logarithm) > deviations * std::sqrt(variance) ? std::exp(0.5 * logarithm) : 1;
+    return std::abs(logarithm) > significant_deviations * std::sqrt(variance) ? std::exp(0.5 * logarithm) : 1;
 }
 
 std::vector<std::string> reasons_of(std::span<const double> left, double correlation) {
     std::vector<std::string> reasons;
     const auto count = static_cast<double>(left.size());
-    if (std::abs(correlation) * std::sqrt(count) > deviations)
+    if (std::abs(correlation) * std::sqrt(count) > significant_deviations)
         reasons.push_back(fmt::format("neighbouring residuals have a correlation of {:.2g}", correlation));
-    if (const double missing = missing_runs(left); missing > deviations)
+    if (const double missing = missing_runs(left); missing > significant_deviations)
         reasons.emplace_back("residuals keep their sign too long");
     const Line line = largest_line(left);
     if (line.height > std::log(0.5 * count / small_chance))

@@ -16,8 +16,8 @@ namespace graze {
 namespace {
 
 /// Throws unless a rule holds. @param key the dimension to change
-void require(const DeviceFile& file, bool holds, const char* key, const std::string& problem,
-             const std::string& remedy) {
+void require_rule(const DeviceFile& file, bool holds, const char* key, const std::string& problem,
+                  const std::string& remedy) {
     if (!holds)
         throw InputError(file.place(std::string("device.") + key), problem, remedy);
 }
@@ -67,10 +67,10 @@ void require_lengths(const DeviceFile& file, const DeviceDimensions& d) {
         try {
             length_on_grid(d.*field.member, std::string("device.") + field.name, field.may_be_zero);
         } catch (const InputError& error) {
-            require(file, false, field.name, error.problem(), error.remedy());
+            require_rule(file, false, field.name, error.problem(), error.remedy());
         }
-    require(file, d.folds >= 1 && d.folds <= most_folds, "folds", fmt::format("device.folds is {}", d.folds),
-            fmt::format("give a whole number from 1 to {}", most_folds));
+    require_rule(file, d.folds >= 1 && d.folds <= most_folds, "folds", fmt::format("device.folds is {}", d.folds),
+                 fmt::format("give a whole number from 1 to {}", most_folds));
 }
 
 /// Extent along y from the middle to the end of the chamber.
@@ -94,13 +94,14 @@ void require_width(const DeviceFile& file, const DeviceDimensions& d) {
                                             {"clearance", 4 * d.clearance},
                                             {"chamber_margin", 2 * d.chamber_margin},
                                             {"frame_width", 2 * d.frame_width}});
-    require(file, fits(across, d.die_width), longest,
-            fmt::format("flexures of {} make a mass {} long, which with clearance, chamber and frame takes {} of "
-                        "a die {} wide",
-                        text_of(d.flexure_length), text_of(2 * half), text_of(across), text_of(d.die_width)),
-            fmt::format("give a smaller {}, or a die_width of at least {}", longest, text_of(sufficient_width(d))));
+    require_rule(
+        file, fits(across, d.die_width), longest,
+        fmt::format("flexures of {} make a mass {} long, which with clearance, chamber and frame takes {} of "
+                    "a die {} wide",
+                    text_of(d.flexure_length), text_of(2 * half), text_of(across), text_of(d.die_width)),
+        fmt::format("give a smaller {}, or a die_width of at least {}", longest, text_of(sufficient_width(d))));
     const double electrode = 2 * (half_across_electrode(d) + d.frame_width);
-    require(
+    require_rule(
         file, fits(electrode, d.die_width), d.pad_width > d.electrode_length ? "pad_width" : "electrode_length",
         fmt::format("the fixed electrode with moat and frame takes {} of a die {} wide", text_of(electrode),
                     text_of(d.die_width)),
@@ -135,7 +136,7 @@ void require_length(const DeviceFile& file, const DeviceDimensions& d) {
                                             {"chamber_margin", 2 * d.chamber_margin},
                                             {"frame_width", 2 * d.frame_width}});
     const double sufficient = std::max(length, length_of_letters(d));
-    require(
+    require_rule(
         file, fits(length, d.die_length), longest,
         fmt::format("device and frame, {} long, do not fit on a die {} long", text_of(length), text_of(d.die_length)),
         fmt::format("give a smaller {}, or a die_length of at least {}", longest, text_of(sufficient)));
@@ -144,47 +145,50 @@ void require_length(const DeviceFile& file, const DeviceDimensions& d) {
 /// Checks the parts that face the mass, or lie below the electrode.
 void require_parts(const DeviceFile& file, const DeviceDimensions& d) {
     const double length = 2 * d.mass_half_length();
-    require(file, fits(d.electrode_length, length), "electrode_length",
-            fmt::format("the fixed electrode, {} long, is longer than the mass of {}", text_of(d.electrode_length),
-                        text_of(length)),
-            "give a shorter electrode, or longer flexures");
-    require(file, d.stop_gap < d.clearance, "stop_gap",
-            fmt::format("the stops do not reach out of the frame: stop_gap is {}, clearance {}", text_of(d.stop_gap),
-                        text_of(d.clearance)),
-            "give a stop_gap less than clearance");
-    require(file, fits(d.channel_width + 2 * d.stop_width, length), "channel_width",
-            fmt::format("channel and stops take {}, the mass is {} long", text_of(d.channel_width + 2 * d.stop_width),
-                        text_of(length)),
-            "give a narrower channel or stops, so that the stops face the mass");
-    require(file,
-            2 * d.base_inset < std::min(d.electrode_length, d.pad_width) && d.base_inset < d.electrode_width &&
-                d.base_inset < d.pad_length,
-            "base_inset", fmt::format("nothing is left of the electrode's base, set back by {}", text_of(d.base_inset)),
-            "give a smaller base_inset, or a larger electrode and pad");
+    require_rule(file, fits(d.electrode_length, length), "electrode_length",
+                 fmt::format("the fixed electrode, {} long, is longer than the mass of {}", text_of(d.electrode_length),
+                             text_of(length)),
+                 "give a shorter electrode, or longer flexures");
+    require_rule(file, d.stop_gap < d.clearance, "stop_gap",
+                 fmt::format("the stops do not reach out of the frame: stop_gap is {}, clearance {}",
+                             text_of(d.stop_gap), text_of(d.clearance)),
+                 "give a stop_gap less than clearance");
+    require_rule(file, fits(d.channel_width + 2 * d.stop_width, length), "channel_width",
+                 fmt::format("channel and stops take {}, the mass is {} long",
+                             text_of(d.channel_width + 2 * d.stop_width), text_of(length)),
+                 "give a narrower channel or stops, so that the stops face the mass");
+    require_rule(file,
+                 2 * d.base_inset < std::min(d.electrode_length, d.pad_width) && d.base_inset < d.electrode_width &&
+                     d.base_inset < d.pad_length,
+                 "base_inset",
+                 fmt::format("nothing is left of the electrode's base, set back by {}", text_of(d.base_inset)),
+                 "give a smaller base_inset, or a larger electrode and pad");
 }
 
 /// Checks letters and marks, which lie in the strip between the chamber and the die's upper edge.
 void require_letters(const DeviceFile& file, const DeviceDimensions& d) {
     const double edge = d.frame_width / 4;
     const double strip = d.die_width / 2 - beyond_chamber(d) - 2 * edge;
-    require(file, fits(d.mark_size, strip), "mark_size",
-            fmt::format("an alignment mark of {} does not fit beside the chamber, where {} are free",
-                        text_of(d.mark_size), text_of(strip)),
-            fmt::format("give a smaller mark_size, or a die_width of at least {}", text_of(sufficient_width(d))));
-    require(file, d.mark_size == 0 || nanometres(d.mark_size) >= least_mark, "mark_size",
-            fmt::format("a mark of {} is too small to be drawn", text_of(d.mark_size)),
-            "give a greater mark_size, or 0 for none");
-    require(file, fits(d.label_height, strip), "label_height",
-            fmt::format("letters of {} do not fit beside the chamber, where {} are free", text_of(d.label_height),
-                        text_of(strip)),
-            fmt::format("give a smaller label_height, or a die_width of at least {}", text_of(sufficient_width(d))));
+    require_rule(file, fits(d.mark_size, strip), "mark_size",
+                 fmt::format("an alignment mark of {} does not fit beside the chamber, where {} are free",
+                             text_of(d.mark_size), text_of(strip)),
+                 fmt::format("give a smaller mark_size, or a die_width of at least {}", text_of(sufficient_width(d))));
+    require_rule(file, d.mark_size == 0 || nanometres(d.mark_size) >= least_mark, "mark_size",
+                 fmt::format("a mark of {} is too small to be drawn", text_of(d.mark_size)),
+                 "give a greater mark_size, or 0 for none");
+    require_rule(
+        file, fits(d.label_height, strip), "label_height",
+        fmt::format("letters of {} do not fit beside the chamber, where {} are free", text_of(d.label_height),
+                    text_of(strip)),
+        fmt::format("give a smaller label_height, or a die_width of at least {}", text_of(sufficient_width(d))));
     if (d.label_height == 0)
         return;
-    require(file, nanometres(d.label_height) >= letter_rows, "label_height", "the letters are too small to be drawn",
-            "give a greater label_height, or 0 for none");
-    require(file, fits(length_of_letters(d), d.die_length), "label_height",
-            fmt::format("'{}' is {} long, for which the die has no room", label_of(d), text_of(written_length(d))),
-            fmt::format("give a smaller label_height, or a die_length of at least {}", text_of(length_of_letters(d))));
+    require_rule(file, nanometres(d.label_height) >= letter_rows, "label_height",
+                 "the letters are too small to be drawn", "give a greater label_height, or 0 for none");
+    require_rule(
+        file, fits(length_of_letters(d), d.die_length), "label_height",
+        fmt::format("'{}' is {} long, for which the die has no room", label_of(d), text_of(written_length(d))),
+        fmt::format("give a smaller label_height, or a die_length of at least {}", text_of(length_of_letters(d))));
 }
 
 std::int64_t least_length(const DeviceDimensions& dimensions) {

@@ -15,7 +15,7 @@ bool is_event(const Segment& segment) {
 }
 
 /// Merges each segment that no event ends with the following ones, up to the next event.
-UncutOrbit joined(const Orbit& orbit, const OrbitDirection& direction, std::size_t first) {
+UncutOrbit joined_at(const Orbit& orbit, const OrbitDirection& direction, std::size_t first) {
     UncutOrbit result{orbit, direction};
     Orbit& whole = result.orbit;
     OrbitDirection& gain = result.direction;
@@ -60,7 +60,7 @@ private:
 };
 
 /// Returns the sections in the order in which they are tried: phase sections first, the preferred one first among them.
-std::vector<std::size_t> candidates(const Model& model, const std::string& preferred) {
+std::vector<std::size_t> sections_to_cut(const Model& model, const std::string& preferred) {
     std::vector<std::size_t> result;
     for (const auto& [phase, named] : {std::pair(true, true), {true, false}, {false, true}, {false, false}})
         for (std::size_t s = 0; s < model.sections.size(); ++s)
@@ -134,7 +134,7 @@ std::optional<UncutOrbit> without_sections(const Model& model, const Orbit& orbi
     const bool drifts = std::ranges::any_of(model.states, [](const State& one) { return one.drifting; });
     if (first != 0 && (orbit.symmetry || drifts))
         return std::nullopt;
-    return joined(orbit, direction, first);
+    return joined_at(orbit, direction, first);
 }
 
 Orbit cut_at_section(const System& system, const Orbit& arcs, std::size_t section) {
@@ -183,7 +183,7 @@ std::optional<Orbit> close_at_section(const System& system, const std::vector<do
                                       std::span<const double> state, std::size_t mode, double duration,
                                       const std::string& preferred, std::optional<std::size_t> symmetry) {
     const Model& model = system.model();
-    for (const std::size_t index : candidates(model, preferred)) {
+    for (const std::size_t index : sections_to_cut(model, preferred)) {
         const Simulation simulation(system, {section_probe(model, model.sections[index].name)});
         PassageRecorder recorder(mode);
         Trajectory trajectory(simulation, parameters, borrowed(recorder));

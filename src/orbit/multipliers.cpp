@@ -198,7 +198,7 @@ constexpr int most_sweeps = 16;
 constexpr double coupling_tolerance = 1e-13;
 /// Diagonal elements below this share of the factor's norm count as zero: the factor is singular, as the jump that sets
 /// a velocity to zero.
-constexpr double round_off = 4e-16;
+constexpr double eigenvalue_roundoff = 4e-16;
 
 } // namespace
 
@@ -266,7 +266,7 @@ std::vector<std::complex<double>> product_eigenvalues(const std::vector<Eigen::M
         bool vanishes = false;
         for (const Eigen::MatrixXd& triangle : triangles) {
             vanishes = vanishes || (size == 1 && std::abs(triangle(begin, begin)) <=
-                                                     round_off * static_cast<double>(n) * triangle.norm());
+                                                     eigenvalue_roundoff * static_cast<double>(n) * triangle.norm());
             block = triangle.block(begin, begin, size, size) * block;
             const double norm = block.norm();
             if (norm > 0 && std::isfinite(norm)) {

@@ -94,8 +94,8 @@ std::string named_with(std::string_view text, const std::string& name) {
 
 /// Adds a series for each sampling of a run, for attractors, and one of crosses for motions that did not settle.
 /// @param over the run is drawn over others: its series are named after it and drawn as circles or crosses
-void add_samples(FigurePanel& panel, const StudyPicture& picture, const StoredRun& run, const std::string& x,
-                 const ShownPanel& shown, bool over) {
+void add_samples_of(FigurePanel& panel, const StudyPicture& picture, const StoredRun& run, const std::string& x,
+                    const ShownPanel& shown, bool over) {
     const std::vector<std::string> samplings = shown_points(picture, run);
     const std::size_t before = panel.series.size();
     // Motions that did not settle are grey and do not count, so that colours are the same in all panels.
@@ -169,7 +169,7 @@ void add_over(Figure& figure, const StudyPicture& picture, const std::vector<Sho
             if (run.has_value(shown[p].value)) {
                 FigurePanel& panel = figure.panels[p];
                 const std::string x = first_coordinate(picture, run);
-                add_samples(panel, picture, run, x, shown[p], true);
+                add_samples_of(panel, picture, run, x, shown[p], true);
                 if (const auto extent = run.extent(x); extent && panel.x_range && !picture.x_range) {
                     // Noise may move measured points beyond the computed ones: the margin keeps them off the frame.
                     constexpr double margin = 0.01;
@@ -205,7 +205,7 @@ ResultPicture bifurcation_picture(const StudyPicture& picture, const ResultFile&
                 panel.title = fmt::format("{} {}", letter,
                                           direction.empty() ? shown_name(picture, name)
                                                             : fmt::format("{} {}", shown_name(picture, x), direction));
-                add_samples(panel, picture, run, x, {values[v], direction}, false);
+                add_samples_of(panel, picture, run, x, {values[v], direction}, false);
                 if (!panel.x_range && picture.x.empty())
                     panel.x_range = shown_extent(run);
                 if (run.record.kind == "sweep" && picture.x.empty())

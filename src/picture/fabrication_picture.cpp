@@ -29,7 +29,7 @@ constexpr std::array<MaterialLook, 4> material_looks{{{ProcessMaterial::silicon,
                                                       {ProcessMaterial::aluminium, "aluminium", "#1c2f5c"}}};
 
 /// Range of the coordinates of all cross-sections, which have one scale.
-PlaneBox extent_of(const std::vector<ProcessStep>& steps) {
+PlaneBox extent_of_steps(const std::vector<ProcessStep>& steps) {
     PlaneBox extent;
     for (const ProcessStep& step : steps)
         for (const ProcessSlab& slab : step.slabs)
@@ -41,7 +41,7 @@ PlaneBox extent_of(const std::vector<ProcessStep>& steps) {
 class FabricationPicture {
 public:
     explicit FabricationPicture(const std::vector<ProcessStep>& steps)
-        : steps_(&steps), extent_(extent_of(steps)), rows_((steps.size() + row_columns) / row_columns),
+        : steps_(&steps), extent_(extent_of_steps(steps)), rows_((steps.size() + row_columns) / row_columns),
           page_height_(static_cast<double>(rows_) * (title_height + section_height + row_gap) + 2 * page_margin) {}
 
     std::string text(const std::string& ending, const std::string& output) {

@@ -45,7 +45,7 @@ void interleave(std::vector<Dot>& dots) {
     });
 }
 
-constexpr double column_width = 0.42; ///< points
+constexpr double width_of_column = 0.42; ///< points
 /// Slant of strokes in points: viewers align exactly vertical lines with pixels, which makes thin curves jagged.
 constexpr double slant = 0.06;
 constexpr double joining_distance = 1; ///< greatest vertical distance of joined dots, in widths
@@ -57,7 +57,7 @@ constexpr std::size_t stroke_layers = 6;
 struct PageDot {
     double x = 0, y = 0;
     std::size_t series = 0;
-    std::uint64_t column() const { return static_cast<std::uint64_t>(x / column_width); }
+    std::uint64_t column() const { return static_cast<std::uint64_t>(x / width_of_column); }
 };
 
 /// The last dot in each small square, which covers the others; sorted by columns, then upwards.
@@ -66,7 +66,7 @@ std::vector<PageDot> seen_dots(std::span<const InterleavedDot> dots, const Panel
     for (const InterleavedDot& dot : dots) {
         const PageDot here{layout.x.share(dot.at.x) * layout.frame.width(),
                            layout.y.share(dot.at.y) * layout.frame.height(), dot.series};
-        squares[cell(here.x / column_width, here.y / column_width)] = here;
+        squares[cell(here.x / width_of_column, here.y / width_of_column)] = here;
     }
     std::vector<PageDot> seen;
     seen.reserve(squares.size());

@@ -12,12 +12,12 @@ namespace {
 
 constexpr std::size_t most_entries = 24;
 // In units of the legend's font size.
-constexpr double line_sample = 2.4, symbol_sample = 0.9, space = 0.5, gap_of_columns = 1.6, row_height = 1.4;
+constexpr double width_of_line_sample = 2.4, symbol_sample = 0.9, space = 0.5, gap_of_columns = 1.6, row_height = 1.4;
 
 double sample_of(const LegendEntry& entry) {
     if (!entry.sampled)
         return 0;
-    return is_line(entry.style) || entry.style == FigureSeries::Style::impulses ? line_sample : symbol_sample;
+    return is_line(entry.style) || entry.style == FigureSeries::Style::impulses ? width_of_line_sample : symbol_sample;
 }
 
 /// True for entries that explain a style, independent of the colour.

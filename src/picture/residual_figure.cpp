@@ -13,7 +13,7 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t most_circles = 200; ///< more points are drawn as dots
+constexpr std::size_t most_circles_of_residuals = 200; ///< more points are drawn as dots
 
 void add_points(FigureSeries& series, const Identification::Curve& curve) {
     for (std::size_t i = 0; i < curve.x.size(); ++i)
@@ -35,7 +35,7 @@ void add_residual_panels(Figure& figure, FigurePanel panel, const std::vector<Id
         add_points(left, one.left);
         fitted.points.push_back({not_a_number, not_a_number}); // interrupts the line
     }
-    if (measured.points.size() > most_circles)
+    if (measured.points.size() > most_circles_of_residuals)
         measured.style = Style::dots;
     panel.series = {std::move(measured), std::move(fitted)};
     residuals.series = {std::move(left)};

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double invisible_deviation = 2e-4; ///< greatest deviation of simplified curves, as a fraction of the panel
 constexpr double last_moments = 0.005;       ///< final fraction of a motion to a singularity that the axes ignore
-constexpr std::size_t most_marked = 2000;    ///< number of contacts; more marks would hide the curve
+constexpr std::size_t most_marked_contacts = 2000; ///< number of contacts; more marks would hide the curve
 constexpr std::size_t section_colour = 1;
 
 class TrajectoryPanels {
@@ -161,7 +161,7 @@ private:
         }
         for (const MotionRecorder::Row& passage : recorder_->passages())
             passages.points.push_back({passage[x], passage[y]});
-        if (contacts.points.size() > most_marked) {
+        if (contacts.points.size() > most_marked_contacts) {
             const auto count = std::count_if(recorder_->jumps().begin(), recorder_->jumps().end(),
                                              [](const MotionRecorder::Jump& jump) { return jump.marked; });
             panel.notes.push_back(fmt::format("{} contacts are not marked", count));

@@ -24,7 +24,7 @@ namespace {
 
 constexpr hsize_t most_rows_of_a_part = 16'384;
 constexpr hsize_t most_datasets = 1000; ///< the library needs some 200 KB for each open one
-constexpr std::size_t longest_channel_name = 100;
+constexpr std::size_t longest_dataset_name = 100;
 /// Largest chunk that is accepted: chunks are unpacked as a whole, and a small file may claim a huge one.
 constexpr hsize_t largest_chunk = hsize_t{64} << 20;
 /// Bytes of unpacked chunks that are cached at most, so that no chunk is unpacked again for every part.
@@ -159,11 +159,11 @@ private:
 
     /// Opens a dataset of numbers, if the link leads to one. Links to other files are ignored.
     std::optional<Column> column_at(hid_t group, hsize_t index) const {
-        char name[longest_channel_name + 2];
+        char name[longest_dataset_name + 2];
         const ssize_t length =
             H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, index, name, sizeof name, H5P_DEFAULT);
         H5L_info_t link{};
-        if (length <= 0 || static_cast<std::size_t>(length) > longest_channel_name || !is_plain_line(name) ||
+        if (length <= 0 || static_cast<std::size_t>(length) > longest_dataset_name || !is_plain_line(name) ||
             H5Lget_info(group, name, &link, H5P_DEFAULT) < 0)
             refuse("there is a name that is not valid for a channel");
         if (link.type != H5L_TYPE_HARD)
@@ -237,15 +237,15 @@ private:
         if (H5Tis_variable_str(type.id()) > 0) {
             char* text = nullptr;
             if (H5Aread(attribute.id(), type.id(), static_cast<void*>(&text)) >= 0 && text)
-                unit.assign(text, strnlen(text, longest_channel_name + 1));
+                unit.assign(text, strnlen(text, longest_dataset_name + 1));
             if (text)
                 H5free_memory(text);
-        } else if (H5Tget_size(type.id()) <= longest_channel_name) {
+        } else if (H5Tget_size(type.id()) <= longest_dataset_name) {
             std::vector<char> text(H5Tget_size(type.id()) + 1, '\0');
             if (H5Aread(attribute.id(), type.id(), text.data()) >= 0)
                 unit = text.data();
         }
-        return unit.size() <= longest_channel_name && is_plain_line(unit) ? unit_symbol(unit) : "";
+        return unit.size() <= longest_dataset_name && is_plain_line(unit) ? unit_symbol(unit) : "";
     }
 
     std::string path_;

@@ -31,7 +31,7 @@ std::optional<double> number_of(std::string_view text, char decimal) {
 }
 
 constexpr std::string_view end_of_heading = "***End_of_Header***";
-constexpr int most_heading_lines = 1000;
+constexpr int most_lines_of_heading = 1000;
 
 /// Lines of a LabVIEW heading: values by key.
 using LabviewHeading = std::map<std::string, std::vector<std::string>, std::less<>>;
@@ -39,7 +39,7 @@ using LabviewHeading = std::map<std::string, std::vector<std::string>, std::less
 LabviewHeading labview_heading(TextLines& lines, char separator) {
     LabviewHeading heading;
     std::string_view line;
-    for (int i = 0; i < most_heading_lines; ++i) {
+    for (int i = 0; i < most_lines_of_heading; ++i) {
         if (!lines.next(line))
             break;
         if (trimmed(line, " \t,").starts_with(end_of_heading))

@@ -30,7 +30,7 @@ namespace {
 
 constexpr const char* full = "look at the permissions of the folder and the room on the disk";
 
-[[noreturn]] void refuse(const std::string& path) {
+[[noreturn]] void refuse_to_write(const std::string& path) {
     throw FileError(path, "the record cannot be written", full);
 }
 
@@ -61,7 +61,7 @@ public:
         require_names_once(header);
         file_.reset(std::fopen(path.c_str(), "wb"));
         if (!file_)
-            refuse(path);
+            refuse_to_write(path);
         text_ = header.heading() + '\n';
     }
     void write(const Samples& samples) override {
@@ -77,14 +77,14 @@ public:
     void close() override {
         flush();
         if (std::fclose(file_.release()) != 0)
-            refuse(path_);
+            refuse_to_write(path_);
     }
 
 private:
     static constexpr std::size_t enough = std::size_t{1} << 20;
     void flush() {
         if (std::fwrite(text_.data(), 1, text_.size(), file_.get()) != text_.size())
-            refuse(path_);
+            refuse_to_write(path_);
         text_.clear();
     }
     std::string path_, text_;
@@ -109,7 +109,7 @@ public:
     }
     void close() override {
         if (H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) < 0) // while an error can still be reported
-            refuse(path_);
+            refuse_to_write(path_);
         sets_.clear();
         file_ = Hdf5Handle();
     }
@@ -144,7 +144,7 @@ private:
             handle(H5Acreate2(set.id(), "units", type.id(), one.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
         const char* text = channel.unit.c_str();
         if (H5Awrite(attribute.id(), type.id(), static_cast<const void*>(&text)) < 0)
-            refuse(path_);
+            refuse_to_write(path_);
         return set;
     }
     void append(const Hdf5Handle& set, const std::vector<double>& values) const {
@@ -152,12 +152,12 @@ private:
         if (count == 0)
             return;
         if (H5Dset_extent(set.id(), &size) < 0)
-            refuse(path_);
+            refuse_to_write(path_);
         const Hdf5Handle target = handle(H5Dget_space(set.id()), H5Sclose),
                          source = handle(H5Screate_simple(1, &count, nullptr), H5Sclose);
         if (H5Sselect_hyperslab(target.id(), H5S_SELECT_SET, &rows_, nullptr, &count, nullptr) < 0 ||
             H5Dwrite(set.id(), H5T_NATIVE_DOUBLE, source.id(), target.id(), H5P_DEFAULT, values.data()) < 0)
-            refuse(path_);
+            refuse_to_write(path_);
     }
 
     std::string path_;

@@ -33,7 +33,7 @@ constexpr char kind_header = 'H', kind_part = 'P', kind_end = 'E', kind_refusal 
 /// Larger numbers mean that the other process is corrupted.
 constexpr std::uint64_t longest_text = std::uint64_t{1} << 20, most_channels = 100'000, most_rows = 10'000'000;
 constexpr int pipe_size = 1 << 20; ///< bytes: a few parts fit, so that both processes work at once
-constexpr const char* damaged = "it is damaged, or has been cut off; make it again";
+constexpr const char* remedy_of_damage = "it is damaged, or has been cut off; make it again";
 
 /// Bytes of address space of this process; 0 if unknown.
 std::size_t address_space() {
@@ -73,7 +73,7 @@ public:
             refuse({}, fmt::format("reading it takes more than {} MiB of memory", limits_->memory >> 20),
                    "it is damaged, or has more channels than that");
         } catch (const std::exception& error) {
-            refuse({}, fmt::format("it cannot be read ({})", error.what()), damaged);
+            refuse({}, fmt::format("it cannot be read ({})", error.what()), remedy_of_damage);
         }
         _exit(0); // no destructors or buffers of the copied process may run
     }
@@ -302,7 +302,7 @@ void SeparateSource::tell_end(bool silent) {
             Place{path_, 0, 0},
             fmt::format("reading one part of it takes more than {:g} s", silent ? limits_.silence : limits_.work),
             "it is damaged, or its chunks are too large: write it in chunks of at most 1 MiB");
-    throw InputError(Place{path_, 0, 0}, "this file cannot be read", damaged);
+    throw InputError(Place{path_, 0, 0}, "this file cannot be read", remedy_of_damage);
 }
 
 void SeparateSource::tell_nonsense() {

@@ -224,7 +224,7 @@ std::vector<ColumnPlan> plans_of(const std::vector<RunColumn>& columns, const St
     return plans;
 }
 
-void write_details(hid_t group, const StoredRun& run, const DetailTable& table, const std::string& path) {
+void write_hdf5_details(hid_t group, const StoredRun& run, const DetailTable& table, const std::string& path) {
     std::vector<ColumnPlan> plans{{"point", "", ColumnType::whole}, {"position", "", ColumnType::whole}};
     for (const ColumnKind& column : table.columns)
         plans.push_back({column.name, unit_of(column.unit, run), column.type});
@@ -271,7 +271,7 @@ void write_run(hid_t output, const StoredRun& stored, const std::string& path) {
                 plans_of(tables.sample_columns, stored), path);
     for (const DetailTable& table : detail_tables())
         if (run.is_branch() || !table.of_branches)
-            write_details(group.id(), stored, table, path);
+            write_hdf5_details(group.id(), stored, table, path);
     write_estimates(group.id(), stored, path);
 }
 

@@ -16,8 +16,6 @@ namespace graze {
 namespace {
 
 using Context = OrbitContext;
-using Type = ColumnType;
-using Unit = ColumnUnit;
 
 /// Components of a direction: for each segment those of its start and its duration, then those of the parameters.
 std::vector<double> numbers_of(const OrbitDirection& direction) {
@@ -71,7 +69,7 @@ ColumnOf<Context, OrbitRecord> touch_number(const char* name, const char* former
 
 template <std::string TouchFindings::*text>
 ColumnOf<Context, OrbitRecord> touch_text(const char* name) {
-    return {added({name, Type::text, Unit::none, true}),
+    return {added({name, ColumnType::text, ColumnUnit::none, true}),
             [](const Context&, const OrbitRecord& r, CellWriter& cell) { cell.word(r.touch ? (*r.touch).*text : ""); },
             [](const Context&, OrbitRecord& r, CellReader& cell) {
                 if (r.touch)
@@ -102,13 +100,13 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
         whole_column(shown("number"), [](auto& r) { return &r.number; }),
         text_column(shown("part"), [](auto& r) { return &r.part; }),
         whole_column(shown("step"), [](auto& r) { return &r.point.step; }),
-        {{"type", Type::text, Unit::none, true},
+        {{"type", ColumnType::text, ColumnUnit::none, true},
          [](const Context&, const Record& r, CellWriter& cell) { cell.text(short_name(r.point.type)); },
          [](const Context&, Record& r, CellReader& cell) {
              r.point.type = point_type(cell.text()).value_or(PointType::regular);
          }},
         word_column(shown("label"), [](auto& r) { return &r.label; }),
-        {{"", Type::real, Unit::own, true, ColumnGroup::coordinates},
+        {{"", ColumnType::real, ColumnUnit::own, true, ColumnGroup::coordinates},
          [](const Context& context, const Record& r, CellWriter& cells) {
              for (const ParameterId one : context.parameters)
                  cells.real(r.point.solution.orbit.parameters[one.place()]);
@@ -120,9 +118,9 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
                  parameters[one.place()] = cells.number();
              r.point.parameter = context.parameters.empty() ? 0 : parameters[context.parameters.front().place()];
          }},
-        {{"period", Type::real, Unit::time, true}, // derived from the segments
+        {{"period", ColumnType::real, ColumnUnit::time, true}, // derived from the segments
          [](const Context&, const Record& r, CellWriter& cell) { cell.real(r.point.solution.orbit.period()); }},
-        {{"", Type::real, Unit::own, false, ColumnGroup::values},
+        {{"", ColumnType::real, ColumnUnit::own, false, ColumnGroup::values},
          [](const Context& context, const Record& r, CellWriter& cells) {
              for (std::size_t m = 0; m < context.run->values.size(); ++m)
                  cells.extended(m < r.point.monitors.size() ? r.point.monitors[m] : not_a_number);
@@ -131,11 +129,11 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
              for (std::size_t m = 0; m < context.run->values.size(); ++m)
                  r.point.monitors.push_back(cells.real());
          }},
-        {{"signature", Type::text, Unit::none, true}, // derived from the segments
+        {{"signature", ColumnType::text, ColumnUnit::none, true}, // derived from the segments
          [](const Context& context, const Record& r, CellWriter& cell) {
              cell.text(to_string(*context.model, r.point.solution.orbit.signature));
          }},
-        {{"symmetry", Type::text, Unit::none, true},
+        {{"symmetry", ColumnType::text, ColumnUnit::none, true},
          [](const Context& context, const Record& r, CellWriter& cell) {
              const auto& symmetry = r.point.solution.orbit.symmetry;
              symmetry ? cell.word(context.model->symmetries[*symmetry].name) : cell.nothing();
@@ -147,13 +145,13 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
                      r.point.solution.orbit.symmetry = i;
          }},
         truth_column(shown("stable"), [](auto& r) { return &r.stable; }),
-        {added({"unstable", Type::whole, Unit::none, true}), // and this from the multipliers
+        {added({"unstable", ColumnType::whole, ColumnUnit::none, true}), // and this from the multipliers
          [](const Context&, const Record& r, CellWriter& cell) { cell.whole(unstable_directions(r.point.solution)); }},
         {added(shown("slowest_approach")), // this from the segments again
          [](const Context&, const Record& r, CellWriter& cell) { cell.real(slowest_approach(r.point.solution)); }},
         truth_column(shown("admissible"), [](auto& r) { return &r.point.solution.certificate.admissible; }),
         word_column(shown("reason"), [](auto& r) { return &r.point.solution.certificate.reason; }),
-        {{"outcome", Type::text, Unit::none, true},
+        {{"outcome", ColumnType::text, ColumnUnit::none, true},
          [](const Context&, const Record& r, CellWriter& cell) { cell.text(name_of(r.point.solution.outcome)); },
          [](const Context&, Record& r, CellReader& cell) {
              r.point.solution.outcome =
@@ -165,9 +163,9 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
         whole_column(kept("iterations"), [](auto& r) { return &r.point.solution.iterations; }),
         number_column(shown("arclength"), [](auto& r) { return &r.point.arclength; }),
         truth_column(shown("located"), [](auto& r) { return &r.point.located; }),
-        real_column(shown("bracket_low", Unit::followed), [](auto& r) { return &r.point.bracket.first; }),
-        real_column(shown("bracket_high", Unit::followed), [](auto& r) { return &r.point.bracket.second; }),
-        {{"event", Type::text},
+        real_column(shown("bracket_low", ColumnUnit::followed), [](auto& r) { return &r.point.bracket.first; }),
+        real_column(shown("bracket_high", ColumnUnit::followed), [](auto& r) { return &r.point.bracket.second; }),
+        {{"event", ColumnType::text},
          [](const Context& context, const Record& r, CellWriter& cell) {
              has_event(r) ? cell.text(context.model->events[r.point.event].name) : cell.nothing();
          },
@@ -176,9 +174,9 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
                  r.point.event = *event;
          }},
         only_if(has_event, position_column(kept("event_segment"), [](auto& r) { return &r.point.segment; })),
-        only_if(has_event, number_column(kept("event_time", Unit::time), [](auto& r) { return &r.point.time; })),
+        only_if(has_event, number_column(kept("event_time", ColumnUnit::time), [](auto& r) { return &r.point.time; })),
         only_if(has_event, truth_column(kept("at_end"), [](auto& r) { return &r.point.at_end; })),
-        {added({"touch_map", Type::text, Unit::none, true}),
+        {added({"touch_map", ColumnType::text, ColumnUnit::none, true}),
          [](const Context&, const Record& r, CellWriter& cell) { cell.word(r.touch ? r.touch->map : ""); },
          [](const Context&, Record& r, CellReader& cell) {
              if (!cell.is_nothing())
@@ -186,7 +184,7 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
          }},
         touch_text<&TouchFindings::verdict>("touch_verdict"),
         touch_text<&TouchFindings::reason>("touch_verdict_reason"),
-        {added({"touch_next_contact", Type::whole, Unit::none, true}),
+        {added({"touch_next_contact", ColumnType::whole, ColumnUnit::none, true}),
          [](const Context&, const Record& r, CellWriter& cell) {
              r.touch&& r.touch->next_contact > 0 ? cell.whole(r.touch->next_contact) : cell.nothing();
          },
@@ -201,7 +199,7 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
         touch_number<&TouchFindings::clearance_rate>("touch_clearance_rate"),
         touch_number<&TouchFindings::speed_factor>("touch_speed_factor", "touch_first_speed"),
         touch_number<&TouchFindings::fold_distance>("touch_fold_distance"),
-        {{"tangent", Type::text}, // as JSON
+        {{"tangent", ColumnType::text}, // as JSON
          [](const Context&, const Record& r, CellWriter& cell) {
              cell.text(fmt::format("[{}]", fmt::join(numbers_of(r.point.tangent), ",")));
          },
@@ -219,15 +217,15 @@ const ColumnsOf<OrbitContext, SegmentRow>& segment_columns() {
         whole_column(kept("segment"), [](auto& s) { return &s.number; }),
         text_column(kept("mode"), [](auto& s) { return &s.mode; }),
         text_column(kept("ending"), [](auto& s) { return &s.ending; }),
-        real_column(kept("duration", Unit::time), [](auto& s) { return &s.duration; }),
+        real_column(kept("duration", ColumnUnit::time), [](auto& s) { return &s.duration; }),
         real_column(kept("approach_speed"), [](auto& s) { return &s.approach_speed; }),
         real_column(kept("departure"), [](auto& s) { return &s.departure; }),
-        {{"guard_margin", Type::real}, // missing if infinite: no other transition is possible
+        {{"guard_margin", ColumnType::real}, // missing if infinite: no other transition is possible
          [](const Context&, const Row& s, CellWriter& cell) { cell.real(s.guard_margin); },
          [](const Context&, Row& s, CellReader& cell) {
              s.guard_margin = cell.is_nothing() ? std::numeric_limits<double>::infinity() : cell.number();
          }},
-        {{"start_", Type::real, Unit::own, false, ColumnGroup::states},
+        {{"start_", ColumnType::real, ColumnUnit::own, false, ColumnGroup::states},
          [](const Context&, const Row& s, CellWriter& cells) { cells.reals(s.start); },
          [](const Context& context, Row& s, CellReader& cells) { cells.reals(s.start, context.run->states.size()); }},
     };
@@ -239,7 +237,7 @@ namespace {
 /// Of what has an event of the model.
 template <class Row>
 ColumnOf<Context, Row> event_column() {
-    return {{"event", Type::text},
+    return {{"event", ColumnType::text},
             [](const Context& context, const Row& one, CellWriter& cell) {
                 cell.text(context.model->events[one.event].name);
             },
@@ -254,7 +252,7 @@ const ColumnsOf<OrbitContext, OrbitMinimum>& minimum_columns() {
     static const ColumnsOf<OrbitContext, OrbitMinimum> columns{
         position_column(kept("segment"), [](auto& m) { return &m.segment; }),
         event_column<OrbitMinimum>(),
-        number_column(kept("time", Unit::time), [](auto& m) { return &m.time; }),
+        number_column(kept("time", ColumnUnit::time), [](auto& m) { return &m.time; }),
         extended_column(kept("value"), [](auto& m) { return &m.value; }),
         number_column(kept("size"), [](auto& m) { return &m.size; }),
     };

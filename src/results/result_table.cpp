@@ -154,7 +154,7 @@ std::vector<ShownColumn> columns_of(const StoredRun& run, const std::string& wha
 }
 
 /// Columns as listed after SELECT. A second column of the same name gets a number appended to its name.
-std::string listed(const std::vector<ShownColumn>& columns) {
+std::string listed_columns(const std::vector<ShownColumn>& columns) {
     std::vector<std::string> texts;
     std::set<std::string> taken;
     for (const ShownColumn& column : columns)
@@ -227,7 +227,7 @@ ResultTable table_of_rows(const ResultFile& file, const ResultTableRequest& requ
         if (several)
             columns.insert(columns.begin(), {text_literal(run.record.name), "", "run"});
         merge(units, columns, units.empty());
-        all += fmt::format("{}SELECT {} FROM {} WHERE {}", all.empty() ? "" : " UNION ALL ", listed(columns),
+        all += fmt::format("{}SELECT {} FROM {} WHERE {}", all.empty() ? "" : " UNION ALL ", listed_columns(columns),
                            query.tables(!of_points, false),
                            condition_of(request, branch ? "p.type" : "p.label", query.direction()));
         if (!several)

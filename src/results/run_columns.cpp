@@ -14,27 +14,24 @@ std::string_view name_of(RunStatus status) {
 
 namespace {
 
-using Run = RunRecord;
-using Type = ColumnType;
-
 /// A list of columns of a run, and its name in the file.
 struct ColumnList {
     const char* place;
     ColumnGroup group;
-    std::vector<ResultColumn> Run::*columns;
+    std::vector<ResultColumn> RunRecord::*columns;
 };
 constexpr std::array<ColumnList, 3> column_lists{{
-    {"coordinate", ColumnGroup::coordinates, &Run::coordinates},
-    {"state", ColumnGroup::states, &Run::states},
-    {"value", ColumnGroup::values, &Run::values},
+    {"coordinate", ColumnGroup::coordinates, &RunRecord::coordinates},
+    {"state", ColumnGroup::states, &RunRecord::states},
+    {"value", ColumnGroup::values, &RunRecord::values},
 }};
 
 struct NameList {
     const char* what;
-    std::vector<std::string> Run::*names;
+    std::vector<std::string> RunRecord::*names;
 };
 constexpr std::array<NameList, 3> name_lists{
-    {{"sampling", &Run::samplings}, {"mode", &Run::modes}, {"direction", &Run::directions}}};
+    {{"sampling", &RunRecord::samplings}, {"mode", &RunRecord::modes}, {"direction", &RunRecord::directions}}};
 
 } // namespace
 
@@ -56,9 +53,9 @@ const ColumnsOf<NoContext, RunRecord>& run_columns() {
     static const ColumnsOf<NoContext, RunRecord> columns{
         text_column(kept("name"), [](auto& run) { return &run.name; }),
         text_column(kept("kind"), [](auto& run) { return &run.kind; }),
-        {{"status", Type::text},
-         [](const NoContext&, const Run& run, CellWriter& cell) { cell.text(name_of(run.status)); },
-         [](const NoContext&, Run& run, CellReader& cell) {
+        {{"status", ColumnType::text},
+         [](const NoContext&, const RunRecord& run, CellWriter& cell) { cell.text(name_of(run.status)); },
+         [](const NoContext&, RunRecord& run, CellReader& cell) {
              run.status = enumerator_named(cell.text(), RunStatus::failed).value_or(RunStatus::unfinished);
          }},
         whole_column(kept("points"), [](auto& run) { return &run.points; }),

@@ -25,7 +25,7 @@ constexpr std::array all_kinds{
     KindOfRun{"identify", Points::measured},
 };
 
-bool has(RunKind kind, Points points) {
+bool kind_has(RunKind kind, Points points) {
     const auto index = static_cast<std::size_t>(kind);
     return index < all_kinds.size() && all_kinds[index].points == points;
 }
@@ -54,23 +54,23 @@ std::optional<RunKind> run_kind(std::string_view name) {
 }
 
 bool has_motions(RunKind kind) {
-    return has(kind, Points::motions) || seeks_attractors(kind);
+    return kind_has(kind, Points::motions) || seeks_attractors(kind);
 }
 
 bool seeks_attractors(RunKind kind) {
-    return has(kind, Points::attractors);
+    return kind_has(kind, Points::attractors);
 }
 
 bool is_followed(RunKind kind) {
-    return has(kind, Points::orbits);
+    return kind_has(kind, Points::orbits);
 }
 
 bool is_branch(RunKind kind) {
-    return has(kind, Points::one_orbit) || is_followed(kind);
+    return kind_has(kind, Points::one_orbit) || is_followed(kind);
 }
 
 bool is_measured(RunKind kind) {
-    return has(kind, Points::measured);
+    return kind_has(kind, Points::measured);
 }
 
 } // namespace graze

@@ -14,7 +14,7 @@ bool has_column(const std::vector<RunColumn>& columns, const std::string& name) 
     });
 }
 
-bool has(const std::vector<ResultColumn>& columns, const std::string& name) {
+bool has_column(const std::vector<ResultColumn>& columns, const std::string& name) {
     return std::ranges::find(columns, name, &ResultColumn::name) != columns.end();
 }
 
@@ -36,9 +36,9 @@ std::string RunQuery::value(const std::string& name) const {
 }
 
 std::string RunQuery::quantity(const std::string& name) const {
-    if (has(run_->coordinates, name))
+    if (has_column(run_->coordinates, name))
         return "p." + column_of(run_->coordinates, ColumnGroup::coordinates, name);
-    if (has(run_->values, name))
+    if (has_column(run_->values, name))
         return value(name);
     if (run_->is_branch() && name == "multiplier")
         return fmt::format("(SELECT sqrt(m.real * m.real + m.imaginary * m.imaginary) FROM multipliers AS m WHERE "

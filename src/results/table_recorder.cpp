@@ -17,13 +17,14 @@ public:
     SampleTable(const Simulation& simulation, const TableRequest& request)
         : model_(&simulation.model()), request_(request), columns_(*model_, request.quantities) {
         table_ = Table(columns_.after({{"time", model_->time_unit}, {"mode", ""}}));
-        periods_ = simulation.system().periods()(model_->parameter_values());
     }
 
     void begin(const Trajectory& trajectory, std::optional<double> duration) override {
         // If the duration is unknown, the time between samples starts tiny and doubles whenever there are too many.
         const double unknown = std::exp2(-50);
         thins_ = !request_.every && !duration;
+        columns_.set_parameters(trajectory.parameters());
+        periods_ = trajectory.simulation().system().periods()(trajectory.parameters());
         const double spacing = request_.every ? *request_.every
                                : duration     ? *duration / static_cast<double>(request_.samples - 1)
                                               : unknown;
@@ -85,6 +86,10 @@ public:
                                       "_after"));
     }
 
+    void begin(const Trajectory& trajectory, std::optional<double> /*duration*/) override {
+        columns_.set_parameters(trajectory.parameters());
+    }
+
     void contact(const Contact& contact) override {
         if (!shown_[contact.event])
             return;
@@ -114,6 +119,10 @@ public:
             columns_.after({{"section", ""}, {"time", simulation.model().time_unit}, {"direction", ""}, {"mode", ""}}));
     }
 
+    void begin(const Trajectory& trajectory, std::optional<double> /*duration*/) override {
+        columns_.set_parameters(trajectory.parameters());
+    }
+
     void passage(const Passage& passage) override {
         if (passage.probe >= end_)
             return;
@@ -139,6 +148,11 @@ public:
                                        {"value", ""},
                                        {"mode", ""},
                                        {"at_contact", ""}}));
+    }
+
+    void begin(const Trajectory& trajectory, std::optional<double> /*duration*/) override {
+        values_.set_parameters(trajectory.parameters());
+        columns_.set_parameters(trajectory.parameters());
     }
 
     void passage(const Passage& passage) override {
@@ -232,6 +246,7 @@ public:
     }
 
     void finish(const Trajectory& trajectory) override {
+        columns_.set_parameters(trajectory.parameters());
         table_.add(name_of(trajectory.outcome().ending), trajectory.outcome().time,
                    static_cast<double>(trajectory.steps()), crossings_, touches_, stickings_,
                    model_->modes[trajectory.mode()].name);
@@ -246,7 +261,7 @@ private:
 };
 
 template <class Recorder>
-std::unique_ptr<TableRecorder> make(const Simulation& simulation, const TableRequest& request) {
+std::unique_ptr<TableRecorder> recorder_of_kind(const Simulation& simulation, const TableRequest& request) {
     return std::make_unique<Recorder>(simulation, request);
 }
 
@@ -258,9 +273,10 @@ struct KindOfTable {
 /// In the order of TableKind.
 const std::vector<KindOfTable>& kinds_of_tables() {
     static const std::vector<KindOfTable> kinds{
-        {"samples", &make<SampleTable>},   {"contacts", &make<ContactTable>}, {"sections", &make<SectionTable>},
-        {"extrema", &make<ExtremumTable>}, {"minima", &make<MinimumTable>},   {"derivatives", &make<DerivativeTable>},
-        {"summary", &make<SummaryTable>}};
+        {"samples", &recorder_of_kind<SampleTable>},   {"contacts", &recorder_of_kind<ContactTable>},
+        {"sections", &recorder_of_kind<SectionTable>}, {"extrema", &recorder_of_kind<ExtremumTable>},
+        {"minima", &recorder_of_kind<MinimumTable>},   {"derivatives", &recorder_of_kind<DerivativeTable>},
+        {"summary", &recorder_of_kind<SummaryTable>}};
     return kinds;
 }
 

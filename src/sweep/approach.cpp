@@ -18,7 +18,7 @@ constexpr std::size_t fewest_periods = 4; ///< required for shrinking along a di
 constexpr std::size_t most_periods = 8;
 constexpr std::size_t fewest_turning = 16; ///< required for shrinking in a plane
 constexpr double half_as_fast = 0.5;
-constexpr double neutral = 1e-10; ///< distance of a multiplier from 1 that is significant
+constexpr double neutral_distance = 1e-10; ///< distance of a multiplier from 1 that is significant
 
 /// The last deviations from the orbit, in units of the scales of the states, newest first, one period apart.
 class Deviations {
@@ -161,9 +161,9 @@ bool closes_in(ReturnWatcher& motion, const Guess& middle) {
     return half >= fewest / 2 && newer < shrinking * shrinking * older;
 }
 
-constexpr double shrunk = 0.1;     ///< factor to which rotating deviations must shrink
-constexpr double settled = 1e-7;   ///< deviation from which a motion is not expected to leave any more
-constexpr std::size_t as_long = 2; ///< factor of the longest time before an unexpected contact
+constexpr double shrunk = 0.1;             ///< factor to which rotating deviations must shrink
+constexpr double settled_deviation = 1e-7; ///< deviation from which a motion is not expected to leave any more
+constexpr std::size_t as_long = 2;         ///< factor of the longest time before an unexpected contact
 
 /// Returns the largest modulus of the multipliers except a real leading one: along its direction the motion approaches
 /// monotonically and meets nothing new. 0 if there is no other.
@@ -214,7 +214,7 @@ bool approaches(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span
     double radius = 0;
     for (const auto& multiplier : orbit.multipliers())
         radius = std::max(radius, std::abs(multiplier));
-    if (!(radius < 1 - neutral) || motion.remembered() <= orbit.period())
+    if (!(radius < 1 - neutral_distance) || motion.remembered() <= orbit.period())
         return false;
     const Deviations deviations(orbit, motion, periods, motion.scale());
     if (!is_resolved(orbit, periods, tolerance))
@@ -228,7 +228,7 @@ bool approaches(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span
 }
 
 bool is_near(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span<const double> periods) {
-    if (orbit.multipliers().empty() || !(std::abs(orbit.multipliers().front()) < 1 - neutral) ||
+    if (orbit.multipliers().empty() || !(std::abs(orbit.multipliers().front()) < 1 - neutral_distance) ||
         motion.remembered() <= orbit.period())
         return false;
     const Deviations deviations(orbit, motion, periods, motion.scale());
@@ -288,7 +288,7 @@ void OrbitStay::begin(const OrbitFinder& orbit, const ReturnWatcher& motion, std
     scale_.assign(motion.scale().begin(), motion.scale().end());
     size_ = distance_from(orbit, motion, periods, scale_);
     needed_ = 0;
-    if (!events || size_ < settled)
+    if (!events || size_ < settled_deviation)
         return;
     needed_ = returns_to_shrink(orbit);
     const std::size_t now = motion.alike(orbit.period()), before = motion.longest_alike(orbit.period());
@@ -306,7 +306,7 @@ OrbitStay::Verdict OrbitStay::judge(const OrbitFinder& orbit, const ReturnWatche
     if (gone > 0 && !same_contacts(orbit, motion, 1))
         return Verdict::left;
     const double size = distance_from(orbit, motion, periods, scale_);
-    if (size < settled)
+    if (size < settled_deviation)
         return Verdict::stayed;
     if (gone < needed_)
         return Verdict::staying;

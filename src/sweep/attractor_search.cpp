@@ -13,10 +13,10 @@ namespace graze {
 
 namespace {
 
-constexpr double soonest = 1e-3;      ///< earliest next return, as a share of the time of a return
-constexpr double least_growth = 5;    ///< logarithm of the growth of a small distance that indicates chaos
-constexpr double outward_share = 0.5; ///< share of the growth of a small distance due to growth of the motion
-constexpr double much_growth = 20;    ///< logarithm of the growth of the extents after which growth is examined
+constexpr double soonest = 1e-3;            ///< earliest next return, as a share of the time of a return
+constexpr double least_growth_of_chaos = 5; ///< logarithm of the growth of a small distance that indicates chaos
+constexpr double outward_share = 0.5;       ///< share of the growth of a small distance due to growth of the motion
+constexpr double much_growth = 20;          ///< logarithm of the growth of the extents after which growth is examined
 constexpr std::size_t least_extension = 400;
 constexpr std::size_t most_chaotic = 3; ///< number of times that a motion is considered chaotic and followed for longer
 constexpr std::size_t returns_between_checks = 25;
@@ -332,7 +332,7 @@ std::optional<bool> AttractorSearch::consider_growth() {
         return leave_plane();
     if (outward && !linear && watcher_.returns() < limit_) // restart the average where the motion has arrived
         start_exponent();
-    if (linear || outward || !(all > least_growth) || chaotic_ >= most_chaotic || collapses_repeatedly())
+    if (linear || outward || !(all > least_growth_of_chaos) || chaotic_ >= most_chaotic || collapses_repeatedly())
         return std::nullopt;
     if (const auto next = leave_plane())
         return next;

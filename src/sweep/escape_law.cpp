@@ -8,8 +8,8 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t fewest = 10;   ///< fewest motions that leave
-constexpr double in_19_of_20 = 1.96; ///< 95 % of a normal distribution, in standard errors
+constexpr std::size_t fewest_leaving = 10; ///< fewest motions that leave
+constexpr double in_19_of_20 = 1.96;       ///< 95 % of a normal distribution, in standard errors
 /// 90 % quantile of Kolmogorov's distribution: a constant rate is rejected by mistake in one of ten cases.
 constexpr double contradicts = 1.22;
 constexpr std::size_t possible_starts =
@@ -78,7 +78,7 @@ std::optional<EscapeLaw> escape_law(std::span<const Stay> stays) {
     for (const Stay& stay : sorted)
         if (stay.left)
             times.push_back(stay.cycles);
-    if (times.size() < fewest)
+    if (times.size() < fewest_leaving)
         return std::nullopt;
     std::size_t before = 0;
     for (std::size_t part = 0; part < possible_starts; ++part) {
@@ -87,7 +87,7 @@ std::optional<EscapeLaw> escape_law(std::span<const Stay> stays) {
             continue;
         before = from;
         const Remainder remainder(sorted, from);
-        if (remainder.left() < fewest)
+        if (remainder.left() < fewest_leaving)
             return std::nullopt;
         // If all leave at once there is no law: this is only the time in which escape is detected.
         if (remainder.leave_steadily() && remainder.law().rate < 20)

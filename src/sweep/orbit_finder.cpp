@@ -24,7 +24,7 @@ constexpr double most_unstable = 2;
 constexpr double sits = 1e-6;
 /// How well a recorded orbit must close, and how much its returns must differ to count as different.
 constexpr double closed = 1e-8;
-constexpr double same = 1e-7;
+constexpr double same_orbit = 1e-7;
 constexpr double resolution = 1e-7; ///< resolution of states, relative to their size
 /// How well states must close that Newton's method does not change, such as a second clock: the period must be one of
 /// all of them. Larger than the rounding within a return.
@@ -211,7 +211,7 @@ bool OrbitFinder::record() {
     // The orbit may close after fewer returns.
     for (std::size_t d = 1; d < period_; ++d)
         if (period_ % d == 0 && watcher_.recent(period_ - d).mode == mode_ && others_return(recorded_[d - 1]) &&
-            (distance(recorded_[d - 1], point_) < same || indistinct(recorded_[d - 1], point_))) {
+            (distance(recorded_[d - 1], point_) < same_orbit || indistinct(recorded_[d - 1], point_))) {
             duration_ *= static_cast<double>(d) / static_cast<double>(period_);
             period_ = d;
             iterations_ = 0;
@@ -254,7 +254,8 @@ void OrbitFinder::keep_orbit() {
         extents_[i] = greatest - least;
         // A state that returns exactly, from any initial value, is constant; or, if it moves, the orbit belongs to a
         // continuous family, such as that of a ball that loses no energy.
-        if (map_->takes_part(i) && !(periods_[i] > 0) && !is_active(i) && extents_[i] > same * std::abs(point_[i]))
+        if (map_->takes_part(i) && !(periods_[i] > 0) && !is_active(i) &&
+            extents_[i] > same_orbit * std::abs(point_[i]))
             ++neutral;
     }
     // For a single active state the multiplier 0 means a superstable map; this map is not one.
@@ -286,7 +287,7 @@ bool OrbitFinder::compare() {
         subtract_states(watcher_.recent(0).state, state, periods_, difference);
         bool equal = true;
         for (const std::size_t i : jacobian_.active)
-            equal = equal && std::abs(difference[i]) < 10 * same * scale_[static_cast<Eigen::Index>(i)];
+            equal = equal && std::abs(difference[i]) < 10 * same_orbit * scale_[static_cast<Eigen::Index>(i)];
         if (equal)
             symmetric_ = true;
     }

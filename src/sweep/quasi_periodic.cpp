@@ -11,14 +11,15 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t fewest_returns = 200;
-constexpr double moves = 1e-3; ///< least extent at returns relative to that of the motion; smaller: at rest
+constexpr std::size_t fewest_returns_on_torus = 200;
+constexpr double least_extent_at_returns =
+    1e-3; ///< least extent at returns relative to that of the motion; smaller: at rest
 /// Distance from an earlier return, relative to the extent at returns, below which a recurrence is examined.
 constexpr double back = 1e-4;
 /// Factor by which the distance from an earlier return shrinks if the motion approaches a long orbit.
-constexpr double shrinking = 0.9;
+constexpr double shrinking_ratio = 0.9;
 /// Distance at which the motion has arrived at the orbit.
-constexpr double arrived = 1e-9;
+constexpr double arrived_distance = 1e-9;
 constexpr std::size_t fewest_back = 8; ///< fewest returns that show a period longer than half of the observation
 
 /// Returns the values of a state at all returns.
@@ -45,14 +46,14 @@ std::vector<std::vector<double>> observables(const VisitedStates& visited, std::
                     sine[k] = std::sin(angle);
                 }
                 const auto [low, high] = std::ranges::minmax_element(sine);
-                moving = moving || *high - *low > moves;
+                moving = moving || *high - *low > least_extent_at_returns;
                 all.push_back(std::move(cosine));
                 all.push_back(std::move(sine));
             }
             continue;
         }
         const auto [low, high] = std::ranges::minmax(values);
-        if (!(high - low > moves * extents[i]))
+        if (!(high - low > least_extent_at_returns * extents[i]))
             continue;
         moving = true;
         std::vector<double> coordinate(returns);
@@ -106,7 +107,8 @@ double weighted_average(std::span<const double> values) {
 }
 
 /// Returns the largest distance of two returns in any state, relative to its extent.
-double distance(const VisitedStates& visited, std::span<const double> extents, std::size_t a, std::size_t b) {
+double distance_of_returns(const VisitedStates& visited, std::span<const double> extents, std::size_t a,
+                           std::size_t b) {
     const std::size_t states = visited.periods.size();
     double largest = 0;
     for (std::size_t i = 0; i < states; ++i) {
@@ -124,23 +126,23 @@ double distance(const VisitedStates& visited, std::span<const double> extents, s
 bool comes_back(const VisitedStates& visited, std::span<const double> extents) {
     const std::size_t last = visited.returns() - 1;
     for (std::size_t lag = 1; lag <= last / 2; ++lag) {
-        const double now = distance(visited, extents, last, last - lag);
+        const double now = distance_of_returns(visited, extents, last, last - lag);
         if (now > back)
             continue;
         double newer = 0, older = 0;
         for (std::size_t k = 0; k < lag && k < last / 2; ++k) {
-            newer = std::max(newer, distance(visited, extents, last - k, last - k - lag));
-            older = std::max(older, distance(visited, extents, lag + k, k));
+            newer = std::max(newer, distance_of_returns(visited, extents, last - k, last - k - lag));
+            older = std::max(older, distance_of_returns(visited, extents, lag + k, k));
         }
-        if (newer < arrived || newer < shrinking * older)
+        if (newer < arrived_distance || newer < shrinking_ratio * older)
             return true;
     }
     // Periods beyond half of the returns are observed only in part: all observed returns must agree.
     for (std::size_t lag = last / 2 + 1; lag + fewest_back <= last; ++lag) {
         double largest = 0;
-        for (std::size_t k = lag; k <= last && largest < arrived; ++k)
-            largest = std::max(largest, distance(visited, extents, k, k - lag));
-        if (largest < arrived)
+        for (std::size_t k = lag; k <= last && largest < arrived_distance; ++k)
+            largest = std::max(largest, distance_of_returns(visited, extents, k, k - lag));
+        if (largest < arrived_distance)
             return true;
     }
     return false;
@@ -154,7 +156,7 @@ double closest_lag(const VisitedStates& visited, std::span<const double> extents
     for (std::size_t lag = 1; lag <= most && lag < visited.returns(); ++lag) {
         double square = 0;
         for (std::size_t k = lag; k < visited.returns(); ++k)
-            square += std::pow(distance(visited, extents, k, k - lag), 2);
+            square += std::pow(distance_of_returns(visited, extents, k, k - lag), 2);
         closest = std::min(closest, std::sqrt(square / static_cast<double>(visited.returns() - lag)));
     }
     return closest;
@@ -163,7 +165,7 @@ double closest_lag(const VisitedStates& visited, std::span<const double> extents
 } // namespace
 
 double unevenness(const VisitedStates& visited, std::span<const double> extents) {
-    if (visited.returns() < fewest_returns || changes_size(visited))
+    if (visited.returns() < fewest_returns_on_torus || changes_size(visited))
         return infinity;
     bool moving = false;
     double largest = 0;

@@ -23,8 +23,8 @@ constexpr double striking = 1e-3;
 constexpr double approaching = 30;
 /// Distance of a return that repeats an earlier one exactly.
 constexpr double exact = 1e-10;
-constexpr std::size_t most_steps = 100'000; ///< longest run without a return
-constexpr std::size_t first_check = 64;     ///< steps without a return after which the motion is first examined
+constexpr std::size_t most_steps_to_return = 100'000; ///< longest run without a return
+constexpr std::size_t first_check = 64; ///< steps without a return after which the motion is first examined
 
 constexpr std::size_t most_parts = 6; ///< largest number of parts; they are merged in pairs when there are more
 
@@ -120,7 +120,7 @@ void ReturnWatcher::step(const Step& step) {
         include(i, step.states[i][0]);
     for (const StateBounds& bounds : bounds_)
         escaped_ = escaped_ || !bounds.contain(step.state(bounds.state, step.length));
-    stuck_ = ++steps_ > most_steps && !any_steps_;
+    stuck_ = ++steps_ > most_steps_to_return && !any_steps_;
     paused_ = rest_ && steps_ >= next_check_;
     if (paused_) {
         next_check_ *= 2;

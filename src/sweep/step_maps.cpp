@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t most_directions = 6;
 /// Largest number of parts of a step. If more are needed, derivatives diverge from a motion of which nothing is known,
 /// such as one that has decayed to the smallest numbers.
-constexpr std::size_t most_parts = 16384;
+constexpr std::size_t most_parts_of_map = 16384;
 /// Number of completed parts after which their memory is released.
 constexpr std::size_t most_done = 1024;
 
@@ -198,7 +198,7 @@ void StepMaps::continue_after(std::size_t mode, const Part& part, std::size_t la
     const double left = part.length - part.attempt;
     if (!(left > 0))
         return;
-    if (part.before + 1 >= most_parts) {
+    if (part.before + 1 >= most_parts_of_map) {
         given_up_ = true;
         known_[part.step] = false;
         return;

@@ -15,7 +15,7 @@ Expression one_minus_square(const Expression& x) {
 }
 
 /// Returns the sum; an empty expression stands for zero.
-Expression sum(const Expression& a, const Expression& b) {
+Expression sum_of(const Expression& a, const Expression& b) {
     if (a.empty())
         return b;
     return b.empty() ? a : a + b;
@@ -29,7 +29,7 @@ Expression derivative_of_power(const Expression& value, const Expression& base, 
     if (!base_rate.empty())
         result = exponent * pow(base, exponent - 1) * base_rate;
     if (!exponent_rate.empty())
-        result = sum(result, value * log(base) * exponent_rate);
+        result = sum_of(result, value * log(base) * exponent_rate);
     return result;
 }
 
@@ -53,14 +53,14 @@ Expression derivative_of(Operation operation, const Expression& value, const Exp
                          const Expression& left_rate, const Expression& right_rate) {
     switch (operation) {
     case Operation::add:
-        return sum(left_rate, right_rate);
+        return sum_of(left_rate, right_rate);
     case Operation::subtract:
-        return sum(left_rate, right_rate.empty() ? right_rate : -right_rate);
+        return sum_of(left_rate, right_rate.empty() ? right_rate : -right_rate);
     case Operation::multiply:
-        return sum(left_rate.empty() ? left_rate : left_rate * right,
-                   right_rate.empty() ? right_rate : left * right_rate);
+        return sum_of(left_rate.empty() ? left_rate : left_rate * right,
+                      right_rate.empty() ? right_rate : left * right_rate);
     case Operation::divide:
-        return sum(left_rate, right_rate.empty() ? right_rate : -(value * right_rate)) / right;
+        return sum_of(left_rate, right_rate.empty() ? right_rate : -(value * right_rate)) / right;
     case Operation::power:
         return derivative_of_power(value, left, right, left_rate, right_rate);
     default:

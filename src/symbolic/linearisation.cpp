@@ -61,7 +61,7 @@ void mark_varying(std::vector<LinearEntry>& entries, const SymbolIndex& variable
 }
 
 /// Returns the cost of an operation on series, given which operands vary.
-std::size_t cost_of(Operation operation, bool left_varies, bool right_varies) {
+std::size_t cost_of_operation(Operation operation, bool left_varies, bool right_varies) {
     switch (operation) {
     case Operation::add:
     case Operation::subtract:
@@ -91,7 +91,7 @@ std::size_t cost_in_states(Linearisation linear, const Subgraph& functions, cons
         const Subgraph::Item& item = part.items[position];
         const Operation operation = part.node(item).operation;
         if (has_state[position] && arity(operation) > 0 && !known.contains(item.index))
-            cost += cost_of(operation, has_state[item.left], arity(operation) == 2 && has_state[item.right]);
+            cost += cost_of_operation(operation, has_state[item.left], arity(operation) == 2 && has_state[item.right]);
     }
     return cost;
 }

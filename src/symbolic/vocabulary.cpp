@@ -11,7 +11,7 @@ namespace graze {
 
 namespace {
 
-constexpr FunctionName functions[] = {
+constexpr FunctionName function_words[] = {
 #define GRAZE_ROW(name, recurrence, slope) {#name, Operation::name},
     GRAZE_FUNCTIONS(GRAZE_ROW)
 #undef GRAZE_ROW
@@ -62,17 +62,17 @@ constexpr Equivalent equivalents[] = {
 } // namespace
 
 std::span<const FunctionName> function_names() {
-    return functions;
+    return function_words;
 }
 
 std::optional<Operation> function_named(std::string_view name) {
-    const auto* found = std::ranges::find(functions, name, &FunctionName::name);
-    return found == std::end(functions) ? std::nullopt : std::optional(found->operation);
+    const auto* found = std::ranges::find(function_words, name, &FunctionName::name);
+    return found == std::end(function_words) ? std::nullopt : std::optional(found->operation);
 }
 
 std::string_view function_name(Operation operation) {
-    const auto* found = std::ranges::find(functions, operation, &FunctionName::operation);
-    if (found == std::end(functions))
+    const auto* found = std::ranges::find(function_words, operation, &FunctionName::operation);
+    if (found == std::end(function_words))
         throw InputError("the operation has no function name", "");
     return found->name;
 }

@@ -9,11 +9,11 @@ namespace graze {
 
 namespace {
 
-std::uint32_t limited(std::uint32_t degree) {
+std::uint32_t limited_degree(std::uint32_t degree) {
     return degree > Tape::highest_degree ? Tape::unbounded : degree;
 }
 
-std::uint32_t degree_of(const Tape& tape, const Instruction& instruction) {
+std::uint32_t degree_of_result(const Tape& tape, const Instruction& instruction) {
     const auto& degrees = tape.degrees;
     switch (instruction.operation) {
     case SeriesOperation::linear_combination: {
@@ -25,9 +25,10 @@ std::uint32_t degree_of(const Tape& tape, const Instruction& instruction) {
     case SeriesOperation::multiply:
         if (degrees[instruction.left] == Tape::unbounded || degrees[instruction.right] == Tape::unbounded)
             return Tape::unbounded;
-        return limited(degrees[instruction.left] + degrees[instruction.right]);
+        return limited_degree(degrees[instruction.left] + degrees[instruction.right]);
     case SeriesOperation::square:
-        return degrees[instruction.left] == Tape::unbounded ? Tape::unbounded : limited(2 * degrees[instruction.left]);
+        return degrees[instruction.left] == Tape::unbounded ? Tape::unbounded
+                                                            : limited_degree(2 * degrees[instruction.left]);
     case SeriesOperation::derivative:
         return degrees[instruction.left];
     case SeriesOperation::divide:
@@ -45,7 +46,7 @@ std::uint32_t degree_of_state(const Tape& tape, std::uint32_t state, bool rate_i
     const Tape::Location& rate = tape.rates[state];
     if (rate.constant)
         return rate_is_zero ? 0 : 1;
-    return tape.degrees[rate.index] == Tape::unbounded ? Tape::unbounded : limited(tape.degrees[rate.index] + 1);
+    return tape.degrees[rate.index] == Tape::unbounded ? Tape::unbounded : limited_degree(tape.degrees[rate.index] + 1);
 }
 
 } // namespace
@@ -62,17 +63,17 @@ void find_degrees(Tape& tape, const std::vector<bool>& rate_is_zero) {
         for (std::uint32_t i = 0; i < tape.states; ++i)
             set(i, degree_of_state(tape, i, rate_is_zero[i]));
         for (const Instruction& instruction : tape.code)
-            set(instruction.result, degree_of(tape, instruction));
+            set(instruction.result, degree_of_result(tape, instruction));
     }
 }
 
 namespace {
 
-constexpr std::uint32_t none = 0xffffffff;
+constexpr std::uint32_t no_definition = 0xffffffff;
 
 /// Returns the instruction that computes each register.
 std::vector<std::uint32_t> definitions_of(const Tape& tape) {
-    std::vector<std::uint32_t> definition(tape.registers, none);
+    std::vector<std::uint32_t> definition(tape.registers, no_definition);
     for (std::uint32_t i = 0; i < tape.code.size(); ++i)
         definition[tape.code[i].result] = i;
     return definition;
@@ -86,7 +87,7 @@ void visit_dependences(const Tape& tape, const std::vector<std::uint32_t>& defin
     while (!pending.empty()) {
         const std::uint32_t reg = pending.back();
         pending.pop_back();
-        if (enter(reg) && definition[reg] != none)
+        if (enter(reg) && definition[reg] != no_definition)
             visit_operands(tape, tape.code[definition[reg]],
                            [&](std::uint32_t operand) { pending.push_back(operand); });
     }
@@ -127,7 +128,7 @@ void separate_deferred_code(Tape& tape, std::span<const std::uint32_t> groups) {
     constexpr std::uint32_t value = 0xfffffffe; // owner of registers needed for rates and outputs
     const std::uint32_t count = *std::max_element(groups.begin(), groups.end()) + 1;
     constexpr std::uint32_t first = 0, shared = 1; // indices in `deferred_code`; group g has index g + 1
-    std::vector<std::uint32_t> owner(tape.registers, none);
+    std::vector<std::uint32_t> owner(tape.registers, no_definition);
     const std::vector<bool> of_value = registers_behind(tape, {tape.rates, tape.outputs});
     for (std::uint32_t reg = 0; reg < tape.registers; ++reg)
         if (of_value[reg])
@@ -141,7 +142,7 @@ void separate_deferred_code(Tape& tape, std::span<const std::uint32_t> groups) {
         visit_dependences(tape, definition, registers_at(ends[group]), [&](std::uint32_t reg) {
             if (owner[reg] == value || owner[reg] == first || owner[reg] == shared || owner[reg] == own)
                 return false;
-            owner[reg] = owner[reg] == none ? own : shared;
+            owner[reg] = owner[reg] == no_definition ? own : shared;
             return true;
         });
     }

@@ -16,7 +16,7 @@ namespace {
 
 /// A radicand falls at most to this share in one step, so that the polynomials of the states determine it relative to
 /// its own size, however close to zero it comes.
-constexpr double least_share = 1e-2;
+constexpr double least_share_left = 1e-2;
 /// An arc that starts where a radicand is zero, such as a Hertz contact, has no series there. It is advanced along its
 /// rates by these shares of the time scale of the motion, at first and at most; the last number is the allowed
 /// difference of the two integration rules, relative to the state or to its change.
@@ -88,7 +88,7 @@ bool Trajectory::root_vanishes(double s) {
         inputs_[i] = evaluate_state(i, s);
     roots.evaluate(inputs_, values_, work_);
     for (std::size_t r = 0; r < roots.outputs(); r += 2)
-        if (at_start[r] > 0 && !(values_[r] >= least_share * at_start[r]) &&
+        if (at_start[r] > 0 && !(values_[r] >= least_share_left * at_start[r]) &&
             at_start[r + 1] != std::floor(at_start[r + 1]))
             return true;
     return false;

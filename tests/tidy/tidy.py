@@ -21,7 +21,7 @@ sys.path.insert(0, str(ROOT / "tests/layers"))
 import check_headers  # noqa: E402
 from batches import batches_of  # noqa: E402
 
-MOST = 24  # sources in a batch
+MOST = 40  # sources in a batch
 
 
 def batch_text(sources):
