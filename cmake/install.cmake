@@ -28,4 +28,4 @@ install(DIRECTORY models studies designs DESTINATION ${CMAKE_INSTALL_DATADIR}/gr
 # Pages are installed with the tree of the repository, so that links between them hold, together with the files to which
 # they link.
 install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md TYPE DOC)
-install(DIRECTORY docs examples TYPE DOC)
+install(DIRECTORY docs examples notebooks TYPE DOC)

@@ -25,3 +25,22 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot, graphviz")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, cmake, libfmt-dev, libsqlite3-dev, libnlopt-dev, libceres-dev")
 include(CPack)
+
+# The Python module is a package of its own: `cpack --config CPackPythonConfig.cmake`.
+if(GRAZE_PYTHON)
+    file(
+        CONFIGURE OUTPUT CPackPythonConfig.cmake @ONLY
+        CONTENT [[
+include("@PROJECT_BINARY_DIR@/CPackConfig.cmake")
+set(CPACK_PACKAGE_NAME python3-graze)
+set(CPACK_DEBIAN_PACKAGE_NAME python3-graze)
+set(CPACK_DEBIAN_PACKAGE_SECTION python)
+set(CPACK_INSTALL_CMAKE_PROJECTS "@PROJECT_BINARY_DIR@;graze;python;/")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy (>= 1:1.24)")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-matplotlib")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-pandas, python3-xarray, python3-tqdm, python3-distributed, python3-mpi4py, graze")
+string(REGEX REPLACE "The program.*" "The module graze of Python 3, with models and studies of the literature."
+                     CPACK_DEBIAN_PACKAGE_DESCRIPTION "${CPACK_DEBIAN_PACKAGE_DESCRIPTION}")
+]]
+    )
+endif()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import List
+from typing import Any, List, Tuple
 
 
 class Error(Exception):
@@ -13,7 +13,7 @@ class Error(Exception):
     text has several, of which this one is the first.
     """
 
-    def __init__(self, problem: str, remedy: str = "", file: str = "", line: int = 0, column: int = 0):
+    def __init__(self, problem: str, remedy: str = "", file: str = "", line: int = 0, column: int = 0) -> None:
         super().__init__(problem)
         self.problem = problem
         self.remedy = remedy
@@ -35,12 +35,12 @@ class Error(Exception):
             lines.append(f"{text}; {one.remedy}" if one.remedy else text)
         return "\n".join(lines)
 
-    def __reduce__(self):
+    def __reduce__(self) -> Tuple[Any, ...]:
         return _restored, (type(self), self.problem, self.remedy, self.file, self.line, self.column, self.all[1:])
 
 
-def _restored(kind, problem, remedy, file, line, column, others):
-    error = kind(problem, remedy, file, line, column)
+def _restored(kind: type, problem: str, remedy: str, file: str, line: int, column: int, others: List[Error]) -> Error:
+    error: Error = kind(problem, remedy, file, line, column)
     error.all += others
     return error
 
@@ -78,15 +78,34 @@ class InternalError(Error):
 class RunFailed(Error):
     """A run has ended without a result, as when no periodic orbit was found. `run` has what was computed."""
 
-    run = None
+    run: Any = None
+
+
+class WorkersLost(Error):
+    """The executor that computes a run has lost its workers, or takes no work. `run` has what was computed; its `resume`
+    goes on, with another executor or without one."""
+
+    run: Any = None
 
 
 class Interrupted(KeyboardInterrupt):
-    """Computing was interrupted, as by Ctrl-C. `run` has what was computed until then; None: nothing."""
+    """Computing was interrupted, by Ctrl-C or by a function `progress` that returned False.
 
-    def __init__(self, run=None):
+    Attributes: `run` has what was computed until then, a run (whose file can be continued) or a motion; None: nothing.
+    `motion` is the same.
+    """
+
+    def __init__(self, run: Any = None) -> None:
         super().__init__("interrupted; the attribute `run` has what was computed" if run is not None else "interrupted")
         self.run = run
+
+    @property
+    def motion(self) -> Any:
+        """What was computed until then, where that is a motion: the same as `run`."""
+        return self.run
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return type(self), (self.run,)
 
 
 _KINDS = {"input": InputError, "file": FileError, "instrument": InstrumentError, "order": OrderError}
@@ -101,7 +120,6 @@ def as_kind(error: InputError, kind: type) -> Error:
     """The same error as one of a narrower kind; files that cannot be read stay what they are."""
     if isinstance(error, FileError):
         return error
-    others = [as_kind(one, kind) for one in error.all if one is not error]
-    result = kind(error.problem, error.remedy, error.file, error.line, error.column)
-    result.all = [result, *others[1:]] if len(error.all) > 1 else [result]
+    result: Error = kind(error.problem, error.remedy, error.file, error.line, error.column)
+    result.all += [as_kind(one, kind) for one in error.all[1:]]
     return result

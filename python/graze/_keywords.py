@@ -3,13 +3,18 @@ wherever they are asked for."""
 
 from __future__ import annotations
 
+import os
 import re
 from functools import lru_cache
+from typing import Any, Callable, Iterable, TypeVar
 
 from . import _graze
 from ._errors import Error, InputError, StudyError, as_kind
 
+Function = TypeVar("Function", bound=Callable[..., Any])
+
 _BARE = re.compile(r"[A-Za-z0-9_-]+\Z")
+_DEEPEST = 20  # tables within tables
 
 
 def toml_text(text: str) -> str:
@@ -24,39 +29,49 @@ def toml_key(name: str) -> str:
     return name if _BARE.match(name) else toml_text(name)
 
 
-def toml_value(value, path: str) -> str:
+def toml_value(value: Any, path: str, depth: int = 0) -> str:
     """A value of Python as one of TOML, in one line."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
-        return toml_text(value)
+        return toml_text(_letters(value, path))
     if isinstance(value, int):
         if not -(2**63) <= value < 2**63:
             raise StudyError(f"{path} is {value}", "give a smaller number")
         return str(value)
     if isinstance(value, float):
-        text = repr(value)
+        text = repr(float(value))  # numpy's numbers show their type
         return text if any(c in text for c in ".en") else text + ".0"
     if isinstance(value, _graze.Expression):
         return toml_text(str(value))
-    if isinstance(value, dict):
-        items = [f"{toml_key(_name(key, path))} = {toml_value(item, f'{path}.{key}')}" for key, item in value.items()
-                 if item is not None]
+    if depth > _DEEPEST:
+        raise StudyError(f"{path} is nested too deeply", "give a number, a text, a list or a dict")
+    if hasattr(value, "items"):
+        items = [f"{toml_key(_name(key, path))} = {toml_value(item, f'{path}.{key}', depth + 1)}"
+                 for key, item in value.items() if item is not None]
         return "{ " + ", ".join(items) + " }" if items else "{}"
     if hasattr(value, "tolist"):  # numpy's numbers and arrays
-        return toml_value(value.tolist(), path)
-    if isinstance(value, (list, tuple, set, range)):
-        return "[" + ", ".join(toml_value(item, f"{path}[{i}]") for i, item in enumerate(value)) + "]"
+        return toml_value(value.tolist(), path, depth + 1)
+    if isinstance(value, (list, tuple, set, frozenset, range)):
+        return "[" + ", ".join(toml_value(item, f"{path}[{i}]", depth + 1) for i, item in enumerate(value)) + "]"
     if hasattr(value, "__fspath__"):
-        return toml_text(str(value))
+        return toml_text(_letters(os.fsdecode(value), path))
     raise StudyError(f"{path} is of type {type(value).__name__}, which no key takes",
                      "give a number, a text, a list or a dict")
 
 
-def _name(key, path: str) -> str:
+def _letters(text: str, path: str) -> str:
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        raise StudyError(f"{path} has letters that Unicode does not have", "give a text of other letters") from None
+    return text
+
+
+def _name(key: Any, path: str) -> str:
     if not isinstance(key, str):
         raise StudyError(f"{path} has the key {key!r}, which is no text", "name keys by texts")
-    return key
+    return _letters(key, path)
 
 
 @lru_cache(maxsize=None)
@@ -65,7 +80,7 @@ def keys_of(kind: str) -> dict:
     return {key["name"]: key for key in _graze.study_keys(kind)}
 
 
-def variation(value, path: str):
+def variation(value: Any, path: str) -> Any:
     """What `vary` says of one parameter or state: a dict as in studies, (from, to, points), or the values themselves."""
     if isinstance(value, tuple):
         if len(value) != 3:
@@ -75,51 +90,208 @@ def variation(value, path: str):
 
 
 class RunText:
-    """The text of one run in a study, and which key each of its lines is about."""
+    """The text of one run in a study, and which key each of its lines is about.
 
-    def __init__(self, name: str, kind: str, keys: dict):
-        self.given = dict(keys)
+    keys: as the study has them; runs, models and files are named by texts. folder: where files are looked for.
+    """
+
+    def __init__(self, name: str, kind: str, keys: dict, folder: str = ""):
         self.name = name
+        self.kind = kind
+        self.folder = folder
+        self.given = {key: value for key, value in keys.items() if value is not None}
         lines = [f"[runs.{toml_key(name)}]", f'kind = "{kind}"']
         self.keys = [None, None]
-        for key, value in keys.items():
-            if value is None:
-                continue
-            if key == "vary" and isinstance(value, dict):
+        for key, value in self.given.items():
+            if key == "vary" and hasattr(value, "items"):
                 value = {one: variation(item, f"vary.{one}") for one, item in value.items()}
             lines.append(f"{toml_key(_name(key, 'the call'))} = {toml_value(value, key)}")
             self.keys.append(key)
         self.text = "\n".join(lines) + "\n"
 
-    def lines(self) -> int:
-        return len(self.keys)
+    def needs(self) -> list:
+        """Names of the runs that this one goes on from, or whose results it uses."""
+        start = self.given.get("start")
+        names = [start["run"]] if hasattr(start, "items") and "run" in start else []
+        for key in ("parameters", "records"):
+            some = self.given.get(key, [])
+            names += [some] if isinstance(some, str) else list(some)
+        return names
+
+    def renamed(self, name: str, runs: dict, model: Any) -> "RunText":
+        """The same run under another name, with other names of the runs that it needs, and of its model."""
+        keys = dict(self.given)
+        if "model" in keys:
+            keys["model"] = model
+        if hasattr(keys.get("start"), "items") and "run" in keys["start"]:
+            keys["start"] = {**keys["start"], "run": runs[keys["start"]["run"]]}
+        for key in ("parameters", "records"):
+            if key in keys:
+                keys[key] = runs[keys[key]] if isinstance(keys[key], str) else [runs[one] for one in keys[key]]
+        return RunText(name, self.kind, keys, self.folder)
+
+    def __reduce__(self):
+        return RunText, (self.name, self.kind, self.given, self.folder)
 
 
-class StudyText:
-    """Runs of one study, as text; mistakes in it are told as those of a call."""
+def study_text(name: str, runs: Iterable[RunText]) -> str:
+    """The text of a study of these runs."""
+    return f"name = {toml_text(name)}\n\n" + "\n".join(run.text for run in runs)
 
-    FILE = "study.toml"
 
-    def __init__(self, name: str, runs):
-        self.runs = list(runs)
-        head = f"name = {toml_text(name)}\n\n"
-        self.text = head + "\n".join(run.text for run in self.runs)
-        self._lines = [None, None]
-        for run in self.runs:
-            self._lines += [(run, key) for key in run.keys] + [None]
+# What messages of the library call things that a caller in Python knows by other names.
+_WORDS = (
+    ("relative to the study", "relative to the working folder"),
+    ("the study's folder", "the working folder"),
+    ("the study has no run ", "there is no run "),
+)
 
-    def told(self, error: Error, called: str) -> Error:
+
+class CallText:
+    """One run as the text of a study, for which mistakes are told as those of a call."""
+
+    def __init__(self, run: RunText, called: str):
+        self.run = run
+        self.called = called
+        self.file = os.path.join(run.folder, called)  # files are looked for beside it
+        self.text = study_text("python", [run])
+        self._keys = [None, None, *run.keys]
+        self._place = re.compile(re.escape(self.file) + r"(?::(\d+))?(?::\d+)?: ")
+
+    def _where(self, line: int) -> str:
+        key = self._keys[line - 1] if 0 < line <= len(self._keys) else None
+        return f"{self.called}, {key}" if key else self.called
+
+    def words(self, text: str) -> str:
+        """A text of the library in the words of the call."""
+        text = self._place.sub(lambda found: self._where(int(found[1] or 0)) + ": ", text)
+        text = text.replace(f"runs.{self.run.name}.", "").replace(f"runs.{self.run.name}", self.called)
+        for words, others in _WORDS:
+            text = text.replace(words, others)
+        return text
+
+    def told(self, error: Error) -> Error:
         """An error with the place in the call instead of that in the text."""
         result = as_kind(error, StudyError) if isinstance(error, InputError) else error
         for one in result.all:
-            if one.file != self.FILE:
-                continue
-            key = None
-            if 0 < one.line <= len(self._lines) and self._lines[one.line - 1]:
-                run, key = self._lines[one.line - 1]
-                for attribute in ("problem", "remedy"):
-                    text = getattr(one, attribute).replace(f"runs.{run.name}.", "").replace(f"runs.{run.name}", called)
-                    setattr(one, attribute, text)
-            one.file = f"{called}, {key}" if key else called
-            one.line = one.column = 0
+            one.problem, one.remedy = self.words(one.problem), self.words(one.remedy)
+            if one.file == self.file:
+                one.file = self._where(one.line)
+                one.line = one.column = 0
         return result
+
+
+_TYPES = {"number": ("float", "a number"), "whole number": ("int", "a whole number"),
+          "true or false": ("bool", "True or False"), "text": ("str", "a text"), "one of": ("str", "one of")}
+_FORMS = {'"RUN" or ["RUN"]': "a run or a list of runs", "{ run, at, direction, point, onto }": "a point, or a run",
+          "{ V = { from, to, step } }": '{"V": (from, to, points)}, or lists of values, or dicts as in studies'}
+_TRUTHS = {"true": "True", "false": "False"}
+
+
+def _python_form(form: str) -> str:
+    """How a value is written in Python, of the form that it has in a study."""
+    form = re.sub(r"([{,] )(\w+) = ", r'\1"\2": ', form)
+    form = re.sub(r"\b(true|false)\b", lambda word: _TRUTHS[word[1]], form)
+    return form.replace("{ ", "{").replace(" }", "}")
+
+
+def _described(key: dict) -> str:
+    words = _FORMS.get(key["type"]) or _TYPES.get(key["type"], ("", _python_form(key["type"])))[1]
+    if key["words"]:
+        words += " " + ", ".join(repr(one) for one in key["words"])
+    least, most = key["least"], key["most"]
+    start = "from" if key["includes_least"] else "above"
+    if least is not None and most is not None and most < 1e15:
+        words += f" {start} {least:.15g} to {most:.15g}"
+    elif least is not None:
+        words += f" {start} {least:.15g}"
+    standard = _TRUTHS.get(key["standard"], key["standard"])
+    meaning = re.sub(r"`(true|false)`", lambda word: _TRUTHS[word[1]], key["meaning"])
+    return f"{words}{f' ({standard})' if standard else ''}: {meaning}."
+
+
+def _wrapped(text: str, indent: str) -> str:
+    lines, line = [], indent
+    for word in text.split():
+        if len(line) + len(word) >= 112 and line.strip():
+            lines.append(line)
+            line = indent + "    "
+        line += word if line.endswith(" ") or not line else " " + word
+    return "\n".join([*lines, line])
+
+
+def _argument(name: str) -> str:
+    return "from_" if name == "from" else name
+
+
+class RunFunction:
+    """A function, or a method, that carries out a run and takes its keys as keyword arguments. Its signature and its
+    documentation list these keys; both are made when somebody asks for them."""
+
+    def __init__(self, function: Callable, kind: str, hidden: Iterable[str] = ()):
+        for name in ("__module__", "__name__", "__qualname__"):
+            setattr(self, name, getattr(function, name))
+        self.__wrapped__ = function
+        self._kind = kind
+        self._hidden = {"kind", "model", *hidden}
+        self._text = function.__doc__ or ""
+
+    def __call__(self, *arguments, **keys):
+        return self.__wrapped__(*arguments, **keys)
+
+    def __get__(self, instance, owner=None):
+        if instance is None:
+            return self
+        from types import MethodType
+
+        return MethodType(self, instance)
+
+    def __reduce__(self):
+        return self.__qualname__
+
+    def _keys(self) -> list:
+        return [key for name, key in keys_of(self._kind).items() if name not in self._hidden]
+
+    @property
+    def __doc__(self):
+        indent = " " * 4
+        if "." in self.__qualname__:
+            indent *= 2
+        lines = [_wrapped(f"{_argument(key['name'])}: {_described(key)}", indent) for key in self._keys()]
+        return "\n".join([self._text.rstrip(), "", f"{indent}Keys of runs of kind {self._kind!r}:", "", *lines, ""])
+
+    @property
+    def __signature__(self):
+        import inspect
+
+        def default(key):
+            kind = {"number": float, "whole number": int}.get(key["type"])
+            try:
+                return kind(key["standard"]) if kind else {"true": True, "false": False}.get(key["standard"])
+            except ValueError:
+                return key["standard"] if key["words"] and key["standard"] in key["words"] else None
+
+        own = inspect.signature(self.__wrapped__)
+        known = list(own.parameters.values())
+        rest = [one for one in known if one.kind is inspect.Parameter.VAR_KEYWORD]
+        shown = [one for one in known if one not in rest]
+        names = {one.name for one in shown}
+        for key in self._keys():
+            name = _argument(key["name"])
+            if name not in names:
+                shown.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default(key),
+                                               annotation=_TYPES.get(key["type"], (inspect.Parameter.empty,))[0]))
+        if "along" in keys_of(self._kind):  # parameters that are followed may be keyword arguments themselves
+            shown.append(inspect.Parameter("followed", inspect.Parameter.VAR_KEYWORD))
+        return own.replace(parameters=shown)
+
+    def __repr__(self):
+        return f"<function {self.__module__}.{self.__qualname__}>"
+
+
+def takes_keys_of(kind: str, *hidden: str) -> Callable[[Function], Function]:
+    """Marks a function as one that takes the keys of runs of a kind, but for those that are hidden."""
+    def marked(function: Any) -> Any:
+        return RunFunction(function, kind, hidden)
+
+    return marked

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import html
 import os
-from collections.abc import MutableMapping
-from typing import NamedTuple, Optional
+from collections.abc import Mapping, MutableMapping
+from typing import Any, NamedTuple, Optional, Tuple
 
 from . import _graze
-from ._errors import InputError, ModelError, as_kind
+from ._errors import FileError, InputError, ModelError, as_kind
+from ._expressions import Expression, is_number, number_of, plain, short
 
 
 class Described(NamedTuple):
@@ -19,47 +20,69 @@ class Described(NamedTuple):
     text: str
 
 
-class Parameters(MutableMapping):
-    """The parameters of a model: a mapping from names to values, which are attributes too.
+class Finding(NamedTuple):
+    """A warning about what is allowed in a model but probably a mistake: the part that it is about, such as
+    "events.stop" (empty if it is about no single part), and what is found."""
 
-    Independent parameters can be set; those that follow from others change with them. `units` and `texts` are dicts.
+    part: str
+    text: str
 
-    >>> parameters = Model.shipped("impact-oscillator").parameters
-    >>> parameters.omega = 2.8
-    >>> parameters["omega"]
-    2.8
-    """
+
+class _Values(MutableMapping):
+    """Values of parts of a model by their names: a mapping whose items are attributes too."""
+
+    _kind = ""
+    _set = ""
 
     def __init__(self, model: "Model"):
         object.__setattr__(self, "_model", model)
 
-    def _values(self) -> dict:
-        core = self._model._core
-        return dict(zip((one["name"] for one in core.parameters), core.parameter_values()))
+    def _parts(self) -> list:
+        raise NotImplementedError
+
+    def _numbers(self) -> list:
+        raise NotImplementedError
+
+    def _unknown(self, name) -> str:
+        return f"the model has no {self._kind} {short(name)}; it has {', '.join(self) or 'none'}"
 
     def __getitem__(self, name):
-        values = self._values()
-        if name not in values:
-            raise KeyError(f"the model has no parameter {name!r}; it has {', '.join(values)}")
-        return values[name]
+        if isinstance(name, (str, Expression)):
+            for part, value in zip(self._parts(), self._numbers()):
+                if part["name"] == str(name):
+                    return value
+        raise KeyError(self._unknown(name))
 
     def __setitem__(self, name, value):
-        self._model._change()
+        model = self._model
         try:
-            self._model._core.set_parameter(name, float(value))
+            name = plain(name)
+            getattr(model._core, self._set)(name, model._number(value, name))
         except InputError as error:
             raise as_kind(error, ModelError) from None
 
     def __delitem__(self, name):
-        raise InputError("parameters cannot be removed from a model", "")
+        raise InputError(f"a {self._kind} cannot be removed from a model", "write another model")
+
+    def __contains__(self, name):
+        return str(name) in list(self) if isinstance(name, (str, Expression)) else False
 
     def __iter__(self):
-        return (one["name"] for one in self._model._core.parameters)
+        return (one["name"] for one in self._parts())
 
     def __len__(self):
-        return len(self._model._core.parameters)
+        return len(self._parts())
+
+    # The values at once, which is quicker than one by one.
+    def items(self):
+        return dict(zip(self, self._numbers())).items()
+
+    def values(self):
+        return dict(self.items()).values()
 
     def __getattr__(self, name):
+        if name.startswith("_"):
+            raise AttributeError(name)
         try:
             return self[name]
         except KeyError as error:
@@ -71,109 +94,223 @@ class Parameters(MutableMapping):
     def __dir__(self):
         return [*super().__dir__(), *self]
 
+    def __reduce__(self):
+        return type(self), (self._model,)
+
     @property
     def units(self) -> dict:
-        return {one["name"]: one["unit"] for one in self._model._core.parameters}
+        """Units by name; empty texts where none is given."""
+        return {one["name"]: one["unit"] for one in self._parts()}
 
     @property
     def texts(self) -> dict:
-        return {one["name"]: one["text"] for one in self._model._core.parameters}
+        """Meanings by name."""
+        return {one["name"]: one["text"] for one in self._parts()}
+
+    def __repr__(self):
+        return "{" + ", ".join(_with_unit(name, value, self.units[name]) for name, value in self.items()) + "}"
+
+    def _repr_html_(self):
+        return _table(("name", "value", "unit", ""), self._rows())
+
+    def _rows(self):
+        return [(part["name"], f"{value:.7g}", part["unit"], part["text"] + self._more(part))
+                for part, value in zip(self._parts(), self._numbers())]
+
+    def _more(self, part) -> str:
+        return ""
+
+
+class Parameters(_Values):
+    """The parameters of a model: a mapping from names to values, which are attributes too.
+
+    Independent parameters can be set, to numbers or to expressions in parameters, as texts too; those that follow from
+    others change with them. `units` and `texts` are dicts by name. Raises ModelError for unknown names and for what is
+    no finite number.
+
+    >>> parameters = Model.shipped("impact-oscillator").parameters
+    >>> parameters.omega = "2*pi/2.5"
+    >>> parameters["omega"]
+    2.5132741228718345
+    """
+
+    _kind = "parameter"
+    _set = "set_parameter"
+
+    def _parts(self):
+        return self._model._core.parameters
+
+    def _numbers(self):
+        return self._model._core.parameter_values()
 
     @property
     def independent(self) -> tuple:
         """Names of the parameters that do not follow from others."""
         return tuple(self._model._core.independent_parameters())
 
-    def __repr__(self):
-        return "{" + ", ".join(f"{name}: {value:.7g}" for name, value in self.items()) + "}"
+    @property
+    def expressions(self) -> dict:
+        """For each parameter that follows from others: how, as a text."""
+        return {one["name"]: one["expression"] for one in self._parts() if one["expression"] is not None}
+
+    def _more(self, part):
+        return "" if part["expression"] is None else f" (= {part['expression']})"
 
 
-class Initial(MutableMapping):
-    """The initial values of a model's states, by name; they can be set."""
+class Initial(_Values):
+    """The initial values of a model's states: a mapping from names to values, which are attributes too and can be set,
+    to numbers or to expressions in parameters. `units` and `texts` are dicts by name.
 
-    def __init__(self, model: "Model"):
-        self._model = model
+    >>> model = Model.shipped("bouncing-ball")
+    >>> model.initial.v = 0
+    """
 
-    def _values(self) -> dict:
-        core = self._model._core
-        return dict(zip((one["name"] for one in core.states), core.initial_state()))
+    _kind = "state"
+    _set = "set_initial"
 
-    def __getitem__(self, name):
-        values = self._values()
-        if name not in values:
-            raise KeyError(f"the model has no state {name!r}; it has {', '.join(values)}")
-        return values[name]
+    def _parts(self):
+        return self._model._core.states
 
-    def __setitem__(self, name, value):
-        self._model._change()
-        try:
-            self._model._core.set_initial(name, float(value))
-        except InputError as error:
-            raise as_kind(error, ModelError) from None
+    def _numbers(self):
+        return self._model._core.initial_state()
 
-    def __delitem__(self, name):
-        raise InputError("states cannot be removed from a model", "")
+    def _more(self, part):
+        if part["period"] is not None:
+            return f" (cyclic, period {part['period']})"
+        return " (drifting)" if part["drifting"] else ""
 
-    def __iter__(self):
-        return (one["name"] for one in self._model._core.states)
 
-    def __len__(self):
-        return len(self._model._core.states)
+def _with_unit(name: str, value: float, unit: str) -> str:
+    return f"{name}: {value:.7g}" + (f" {unit}" if unit else "")
 
-    def __repr__(self):
-        return "{" + ", ".join(f"{name}: {value:.7g}" for name, value in self.items()) + "}"
+
+def _table(heads, rows) -> str:
+    def row(tag, cells):
+        return "<tr>" + "".join(f"<{tag}>{html.escape(str(cell))}</{tag}>" for cell in cells) + "</tr>"
+
+    return (f"<table><thead>{row('th', heads)}</thead><tbody>" + "".join(row("td", cells) for cells in rows)
+            + "</tbody></table>")
 
 
 class Model:
     """A hybrid dynamical system: states, parameters, modes with their equations, events, jumps.
 
     `Model(text=...)` reads the text of a model file, `Model(file=...)` a file, `Model.shipped(name)` a model that comes
-    with graze; `graze.load(name_or_file)` chooses between the last two. `str(model)` is the text of its file.
-    Keyword arguments set parameters: `Model.shipped("impact-oscillator", omega=2.8)`.
+    with graze; `graze.load(name_or_file)` chooses between the last two. With these, keyword arguments set parameters:
+    `Model.shipped("impact-oscillator", omega=2.8)`.
 
-    Raises ModelError, whose `all` lists all mistakes of a text.
+    A model is written in Python by its equations. `str(model)` is the text of its file:
+
+    >>> x, v = states(x=1, v=0)
+    >>> g, e = parameters(g=9.81, e=0.8)
+    >>> ball = Model("ball", parameters=[g, e], rates={x: v, v: -g}, events={"contact": x},
+    ...              transitions=[Transition("contact", jump={v: -e*v})])
+
+    name, text, source, time_unit: its name ("model"), what it is, where it comes from, the unit of time.
+    states: `State`s in their order, or a dict from names (or symbols) to initial values or to dicts of fields. By
+        default those that have rates, in that order.
+    parameters: `Parameter`s, or a dict from names (or symbols) to values, expressions or dicts of fields.
+    definitions: `Definition`s, or a dict from names to expressions.
+    rates, watch: of a model with one mode: see `Mode`. Several modes: modes, a dict from names to `Mode`.
+    events: a dict from names to functions or `Event`s. jumps: a dict from names to dicts of changed states or `Jump`s.
+    transitions: a list of `Transition`s. sections, symmetries, quantities: dicts from names to `Section`, `Symmetry`,
+        `Quantity`, or to a function or expression.
+    initial_mode: the mode in which the motion starts; the first one by default.
+
+    An expression is a number, an expression in symbols, or a text. All that docs/model-format.md says of the parts of
+    models holds here. Raises ModelError, whose `all` lists all mistakes, and TypeError for unknown arguments.
     """
 
-    def __init__(self, *, text: Optional[str] = None, file=None, **parameters):
+    def __init__(self, name: Optional[str] = None, *, text: Optional[str] = None, file: Any = None, source: Any = None,
+                 time_unit: Any = None, states: Any = None, parameters: Any = None, definitions: Any = None,
+                 rates: Any = None, watch: Any = None, modes: Any = None, events: Any = None, jumps: Any = None,
+                 transitions: Any = None, sections: Any = None, symmetries: Any = None, quantities: Any = None,
+                 initial_mode: Any = None, **values: Any) -> None:
+        parts = {"source": source, "time_unit": time_unit, "states": states, "parameters": parameters,
+                 "definitions": definitions, "rates": rates, "watch": watch, "modes": modes, "events": events,
+                 "jumps": jumps, "transitions": transitions, "sections": sections, "symmetries": symmetries,
+                 "quantities": quantities, "initial_mode": initial_mode}
+        if rates is not None or modes is not None:
+            if file is not None:
+                raise ModelError("a model is read from a file or written by its equations, not both",
+                                 "leave file, or rates and modes, out")
+            self._write(name, text, parts, values)
+            return
+        if name is not None:
+            raise ModelError(f"Model({short(name)}) has no equations",
+                             "give rates=..., or modes=...; graze.load(name) reads a shipped model or a file")
         if (text is None) == (file is None):
-            raise InputError("a model is made of one text or one file", "give text=... or file=...")
+            raise ModelError("a model is made of one text, of one file, or of its equations",
+                             "give text=..., file=..., rates=... or modes=...")
+        for key, value in parts.items():
+            if value is not None and key != "parameters":
+                raise ModelError(f"Model(), {key} belongs to a model that is written by its equations",
+                                 "leave it out, or give rates=... or modes=...")
+        self._read(text, file)
+        for given in ({} if parameters is None else parameters, values):
+            self._set(given)
+
+    def _write(self, name, text, parts: dict, values: dict):
+        from ._written_model import FILE, WrittenModel, near
+
+        for key in values:
+            raise TypeError(f"Model() has no argument {key!r}; {near(key, ['name', 'text', *parts])}")
+        written = WrittenModel(name, text=text, **parts)
+        try:
+            self._core = _graze.Model.parsed(written.text, FILE)
+        except InputError as error:
+            raise written.told(error) from None
+
+    def _read(self, text, file):
         try:
             if text is not None:
-                self._core = _graze.Model.parsed(text, "model")
+                if not isinstance(text, str):
+                    raise ModelError(f"Model(), text is of type {type(text).__name__}", "give the text of a model file")
+                self._core = _graze.Model.parsed(plain(text), "model")
             else:
-                path = os.fspath(file)
+                path = plain(_path(file, "Model(), file"))
                 self._core = _graze.Model.loaded(path if "/" in path else "./" + path)
         except InputError as error:
             raise as_kind(error, ModelError) from None
-        self._compiled = None
-        self._set(parameters)
 
     @classmethod
     def _of(cls, core, parameters=None) -> "Model":
         model = cls.__new__(cls)
         model._core = core
-        model._compiled = None
         model._set(parameters or {})
         return model
 
     @classmethod
-    def shipped(cls, name: str, **parameters) -> "Model":
-        """A model that comes with graze; `graze.models()` lists them."""
-        try:
-            return cls._of(_graze.Model.loaded(name), parameters)
-        except InputError as error:
-            raise as_kind(error, ModelError) from None
+    def shipped(cls, name: str, **parameters: Any) -> "Model":
+        """A model that comes with graze; `graze.models()` lists them. Keyword arguments set parameters.
+
+        Raises ModelError if there is none of this name.
+        """
+        if not isinstance(name, str) or "/" in name or name.endswith(".toml"):
+            raise ModelError(f"there is no shipped model {short(name)}",
+                             "graze.models() lists them; graze.load reads files")
+        return load(name, **parameters)
 
     def _set(self, parameters):
+        if not isinstance(parameters, Mapping):
+            raise ModelError("Model(), parameters is no dict", "give a dict from names to values")
         for name, value in parameters.items():
             self.parameters[name] = value
 
-    def _change(self):
-        self._compiled = None
+    def _number(self, value, called: str) -> float:
+        """A number, or the value of an expression in parameters."""
+        if isinstance(value, (str, Expression)):
+            return self._core.value_of(plain(value), called)
+        if not is_number(value):
+            raise ModelError(f"{short(value)} is no number", "give a number, or an expression in parameters", called)
+        try:
+            return number_of(value)
+        except InputError as error:
+            raise ModelError(error.problem, error.remedy, called) from None
 
-    def with_(self, **values) -> "Model":
+    def with_(self, **values: Any) -> "Model":
         """A copy with other values of parameters or initial states."""
-        copy = Model._of(self._core.copied())
+        copy = self.__copy__()
         states = set(copy.initial)
         for name, value in values.items():
             (copy.initial if name in states else copy.parameters)[name] = value
@@ -181,6 +318,7 @@ class Model:
 
     @property
     def name(self) -> str:
+        """The name of the model."""
         return self._core.name
 
     @property
@@ -190,48 +328,76 @@ class Model:
 
     @property
     def source(self) -> str:
+        """Where it comes from."""
         return self._core.source
 
     @property
     def time_unit(self) -> str:
+        """The unit of time; may be empty."""
         return self._core.time_unit
 
     @property
     def parameters(self) -> Parameters:
+        """The parameters, by name; they can be set."""
         return Parameters(self)
 
     @property
     def initial(self) -> Initial:
+        """The initial values of the states, by name; they can be set."""
         return Initial(self)
 
     @property
     def initial_mode(self) -> str:
+        """The name of the mode in which the motion starts; it can be set."""
         return self._core.initial_mode
 
     @initial_mode.setter
-    def initial_mode(self, name: str):
-        self._change()
+    def initial_mode(self, name: str) -> None:
         try:
-            self._core.initial_mode = name
+            self._core.initial_mode = plain(name)
         except InputError as error:
             raise as_kind(error, ModelError) from None
 
     @property
-    def states(self) -> tuple:
-        """Names of the states, with unit and text."""
+    def states(self) -> Tuple[Described, ...]:
+        """The states: (name, unit, text) of each."""
         return tuple(Described(one["name"], one["unit"], one["text"]) for one in self._core.states)
 
     @property
+    def periods(self) -> dict:
+        """Periods of the cyclic states, at the present parameters."""
+        periods = zip((one.name for one in self.states), self._core.periods())
+        return {name: period for name, period in periods if period > 0}
+
+    @property
+    def definitions(self) -> tuple:
+        """Names of the definitions."""
+        return tuple(name for name, _ in self._core.definitions)
+
+    @property
     def modes(self) -> tuple:
+        """Names of the modes."""
         return tuple(name for name, _ in self._core.modes)
 
     @property
     def events(self) -> tuple:
+        """Names of the events."""
         return tuple(name for name, _ in self._core.events)
 
     @property
+    def jumps(self) -> tuple:
+        """Names of the jumps; the first is `identity`."""
+        return tuple(name for name, _ in self._core.jumps)
+
+    @property
     def sections(self) -> tuple:
+        """Names of the sections."""
         return tuple(name for name, _ in self._core.sections)
+
+    @property
+    def symmetries(self) -> tuple:
+        """Names of the symmetries."""
+        return tuple(name for name, _ in self._core.symmetries)
 
     @property
     def transitions(self) -> tuple:
@@ -240,12 +406,51 @@ class Model:
 
     @property
     def quantities(self) -> tuple:
+        """Names of the quantities."""
         return tuple(name for name, *_ in self._core.quantities)
 
-    def save(self, path) -> None:
-        """Writes the model file. An existing file is replaced."""
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(str(self))
+    def value(self, expression: Any) -> float:
+        """The value of a number or of an expression in parameters, as a text too, at the present parameters.
+
+        Raises ModelError if it has none.
+        """
+        try:
+            return self._number(expression, "value()")
+        except InputError as error:
+            raise as_kind(error, ModelError) from None
+
+    def check(self) -> Tuple[Finding, ...]:
+        """What is allowed but probably a mistake, as `graze check` warns: an event that no mode watches, a mode that
+        cannot be reached, an initial state beyond a barrier, a symmetry that does not hold, ... Empty if nothing is
+        found. It takes a second or two for large models."""
+        return tuple(Finding(*one) for one in self._core.findings())
+
+    def describe(self) -> str:
+        """A readable text of all states, parameters, modes and other parts, as `graze check` prints it."""
+        import textwrap
+
+        lines = [self.name + (f" (time in {self.time_unit})" if self.time_unit else "")]
+        for words in (self.text, self.source and f"Source: {self.source}"):
+            if words:
+                words = " ".join(words.split())
+                lines.append(textwrap.fill(words, 100, break_long_words=False, break_on_hyphens=False))
+        return "\n".join(lines) + "\n" + self._core.listing()
+
+    def table(self) -> Any:
+        """A Table with one row for every named item: item, name, value, unit, text."""
+        from ._table import Table
+
+        return Table(*self._core.table())
+
+    def save(self, path: Any) -> None:
+        """Writes the model file. An existing file is replaced. Raises FileError if it cannot be written."""
+        try:
+            with open(_path(path, "save(), path"), "w", encoding="utf-8") as file:
+                file.write(str(self))
+        except OSError as error:
+            raise FileError("the model file cannot be written", error.strerror or "", str(path)) from None
+        except ValueError as error:  # no text that a file can be named by
+            raise ModelError(f"{short(path)} is no path", str(error), "save(), path") from None
 
     def __str__(self):
         return self._core.text()
@@ -253,10 +458,10 @@ class Model:
     def __eq__(self, other):
         return str(self) == str(other) if isinstance(other, Model) else NotImplemented
 
-    __hash__ = None
+    __hash__ = None  # type: ignore[assignment]
 
     def __copy__(self):
-        return Model._of(self._core.copied())
+        return type(self)._of(self._core.copied())
 
     def __deepcopy__(self, memo):
         return self.__copy__()
@@ -266,29 +471,44 @@ class Model:
 
     def __repr__(self):
         states = ", ".join(one.name for one in self.states)
-        return f"<Model {self.name}: states {states}; modes {', '.join(self.modes)}>"
+        modes = f"; modes {', '.join(self.modes)}" if len(self.modes) > 1 else ""
+        return f"<Model {self.name}: states {states}{modes}>"
 
     def _repr_html_(self):
-        rows = "".join(
-            f"<tr><td>{html.escape(one['name'])}</td><td>{value:.7g}</td><td>{html.escape(one['unit'])}</td>"
-            f"<td>{html.escape(one['text'])}</td></tr>"
-            for one, value in zip(self._core.parameters, self._core.parameter_values())
-        )
-        states = ", ".join(html.escape(one.name) for one in self.states)
-        return (f"<b>{html.escape(self.name)}</b><p>{html.escape(self.text)}</p><p>states {states}; "
-                f"modes {html.escape(', '.join(self.modes))}</p><table><tbody>{rows}</tbody></table>")
+        said = f"<b>{html.escape(self.name)}</b>"
+        if self.text:
+            said += f"<p>{html.escape(self.text)}</p>"
+        said += _table(("state", "initial", "unit", ""), self.initial._rows())
+        if self.parameters:
+            said += _table(("parameter", "value", "unit", ""), self.parameters._rows())
+        said += f"<p>modes {html.escape(', '.join(self.modes))}"
+        if self.transitions:
+            said += "; transitions " + html.escape(", ".join(label for label, *_ in self.transitions))
+        return said + "</p>"
 
 
 def _read_again(text: str) -> Model:
     return Model(text=text)
 
 
-def load(name_or_file) -> Model:
-    """A shipped model by its name, or the model in a file."""
+def _path(path, called: str):
     try:
-        return Model._of(_graze.Model.loaded(os.fspath(name_or_file)))
+        return os.fspath(path) if isinstance(path, str) else os.fsdecode(path)
+    except TypeError:
+        raise ModelError(f"{short(path)} is no path", "give the path of a file as a text or as a pathlib.Path",
+                         called) from None
+
+
+def load(name_or_file: Any, **parameters: Any) -> Model:
+    """A shipped model by its name, or the model in a file. Keyword arguments set parameters.
+
+    Raises ModelError, whose `all` lists all mistakes, and FileError for a file that cannot be read.
+    """
+    try:
+        core = _graze.Model.loaded(plain(_path(name_or_file, "load()")))
     except InputError as error:
         raise as_kind(error, ModelError) from None
+    return Model._of(core, parameters)
 
 
 def models() -> dict:

@@ -15,7 +15,7 @@ namespace graze {
 namespace {
 
 /// Ratio of speeds that counts as growth; largest ratio that counts as agreement with the map.
-constexpr double growth = 30, agreement = 3;
+constexpr double growth = 30, agreement_with_map = 3;
 
 /// Records the largest approach speed at the touched event, or the largest depth beyond it, of the contacts that belong
 /// to the touch and not to other contacts of the orbit.
@@ -204,10 +204,11 @@ Trial try_persistence(const TrialExperiment& experiment) {
         return with_reason(trial, TrialOutcome::undecided, "the motion could not be followed to its end");
     // Speeds scale with the square root of the distance, depths of compliant contacts with the distance.
     const double shrunk = experiment.is_compliant() ? nearer : std::sqrt(nearer);
-    const bool shrinks = is_near(far.largest, shrunk * near.largest, agreement);
-    if (!far.ended && !near.ended && near.contacts > 0 && shrinks && is_near(near.largest, near.predicted, agreement))
+    const bool shrinks = is_near(far.largest, shrunk * near.largest, agreement_with_map);
+    if (!far.ended && !near.ended && near.contacts > 0 && shrinks &&
+        is_near(near.largest, near.predicted, agreement_with_map))
         return with_reason(trial, TrialOutcome::agreed, "contact speeds agree with the map");
-    if (near.contacts > 0 && near.largest * agreement > far.largest)
+    if (near.contacts > 0 && near.largest * agreement_with_map > far.largest)
         return with_reason(trial, TrialOutcome::contradicted, "contacts do not grow softer towards the touch");
     if (!far.ended && !near.ended && near.contacts == 0)
         return with_reason(trial, TrialOutcome::undecided, "no contacts are seen so near the touch");
@@ -262,13 +263,14 @@ Trial try_verdict(const System& system, const CycleMap& map, const Verdict& verd
                                                    : try_persistence(experiment);
 }
 
-TouchReport touch_report(const System& system, const CycleMap& map, std::optional<ParameterId> parameter, bool verify) {
+TouchReport touch_report(const System& system, const CycleMap& map, std::optional<ParameterId> parameter, bool verify,
+                         const TrialOptions& options) {
     TouchReport report;
     report.verdict = verdict_of(map);
     if (verify && !parameter)
         throw InputError("no parameter is given that moves the orbit from its touch", "name a parameter that does");
     if (verify)
-        report.trial = try_verdict(system, map, report.verdict, *parameter);
+        report.trial = try_verdict(system, map, report.verdict, *parameter, options);
     if (parameter)
         report.beyond = motions_beyond(map, report.verdict, *parameter);
     return report;

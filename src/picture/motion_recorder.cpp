@@ -15,10 +15,15 @@ constexpr std::size_t most_recorded = 2'000'000;
 
 MotionRecorder::MotionRecorder(const Simulation& simulation, MotionPanelChoice contents)
     : simulation_(simulation), contents_(std::move(contents)), evaluate_(simulation.model(), contents_.columns) {
-    const Model& model = simulation.model();
-    periods_ = simulation.system().periods()(model.parameter_values());
-    state_.resize(periods_.size());
+    state_.resize(simulation.system().states());
     motion_.values.resize(contents_.columns.size() + 1);
+    set_parameters(simulation.model().parameter_values());
+}
+
+void MotionRecorder::set_parameters(std::span<const double> values) {
+    const Model& model = simulation_.model();
+    evaluate_.set_parameters(values);
+    periods_ = simulation_.system().periods()(values);
     motion_.periods = {0};
     for (const NamedValue& column : contents_.columns) {
         const auto state = column.value.is_symbol() ? model.find_state(column.value.name()) : std::nullopt;

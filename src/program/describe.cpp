@@ -1,99 +1,18 @@
 #include "program/describe.hpp"
 
 #include "graze/results/model_table.hpp"
-#include "graze/symbolic/transform.hpp"
-#include "model/model_words.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <sstream>
-
 namespace graze {
 
-namespace {
-
-std::string kind_of(const State& state) {
-    if (state.period)
-        return fmt::format(" (cyclic, period {})", to_string(*state.period));
-    return state.drifting ? " (drifting)" : "";
-}
-
-/// A text of headings with aligned rows below them; columns that are empty in all rows are left out.
-class Listing {
-public:
-    void heading(std::size_t count, const std::string& one, const std::string& many) {
-        flush();
-        if (count > 0)
-            text_ += fmt::format("\n{} {}\n", count, count == 1 ? one : many);
-    }
-    void row(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
-    std::string text() {
-        flush();
-        return text_;
-    }
-
-private:
-    void flush() {
-        std::vector<std::size_t> widths;
-        for (const auto& row : rows_)
-            for (std::size_t i = 0; i < row.size(); ++i) {
-                widths.resize(std::max(widths.size(), row.size()));
-                widths[i] = std::max(widths[i], row[i].size());
-            }
-        for (const auto& row : rows_) {
-            std::string line = " ";
-            for (std::size_t i = 0; i < row.size(); ++i)
-                if (widths[i] > 0)
-                    line += fmt::format(" {:<{}} ", row[i], widths[i]);
-            line.erase(line.find_last_not_of(' ') + 1);
-            text_ += line + '\n';
-        }
-        rows_.clear();
-    }
-    std::string text_;
-    std::vector<std::vector<std::string>> rows_;
-};
-
-} // namespace
-
 std::string describe(const Model& model, std::size_t width) {
-    Listing listing;
-    listing.heading(model.states.size(), "state (initial value)", "states (initial values)");
-    const std::vector<double> states = model.initial_state();
-    for (std::size_t i = 0; i < states.size(); ++i)
-        listing.row({model.states[i].name, fmt::format("= {}", states[i]), model.states[i].unit,
-                     model.states[i].text + kind_of(model.states[i])});
-    listing.heading(model.parameters.size(), "parameter", "parameters");
-    const std::vector<double> parameters = all_parameter_values(model);
-    for (std::size_t i = 0; i < parameters.size(); ++i) {
-        const Parameter& item = model.parameters[i];
-        listing.row({item.name, fmt::format("= {}", parameters[i]), item.unit,
-                     item.text + (item.expression ? fmt::format(" (= {})", formula(*item.expression)) : "")});
-    }
-    listing.heading(model.definitions.size(), "definition", "definitions");
-    listing.heading(model.modes.size(), "mode", "modes");
-    for (const Mode& item : model.modes)
-        listing.row({item.name, watched_by(model, item), item.text});
-    listing.heading(model.transitions.size(), "transition (mode: event / jump -> next mode)",
-                    "transitions (mode: event / jump -> next mode)");
-    for (const Transition& item : model.transitions)
-        listing.row({item.label, transition_text(model, item)});
-    listing.heading(model.sections.size(), "section", "sections");
-    for (const Section& item : model.sections)
-        listing.row({item.name, section_text(model, item), item.text});
-    listing.heading(model.symmetries.size(), "symmetry", "symmetries");
-    for (const Symmetry& item : model.symmetries)
-        listing.row({item.name, fmt::format("{}", fmt::join(images_of(model, item), ", ")), item.text});
-    listing.heading(model.quantities.size(), "quantity", "quantities");
-    for (const Quantity& item : model.quantities)
-        listing.row({item.name, item.unit, item.text});
     std::string text =
         fmt::format("{}{}\n", model.name, model.time_unit.empty() ? "" : fmt::format(" (time in {})", model.time_unit));
     for (const std::string& paragraph : {model.text, model.source.empty() ? "" : "Source: " + model.source})
         if (!paragraph.empty())
             text += wrapped(paragraph, width) + '\n';
-    return text + listing.text();
+    return text + model_listing(model);
 }
 
 } // namespace graze

@@ -1,9 +1,9 @@
 #include "program/commands.hpp"
 
-#include "base/special_numbers.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/with_place.hpp"
 #include "graze/picture/trip_series.hpp"
+#include "graze/results/trip_table.hpp"
 #include "graze/trip/disturbed_trip.hpp"
 #include "graze/trip/noisy_trip.hpp"
 #include "program/asked_trip.hpp"
@@ -68,14 +68,7 @@ void note_rows(AskedTrips& asked, std::size_t wanted, std::size_t done) {
 
 void ramp(AskedTrips& asked) {
     const LossPoint& point = asked.point;
-    const std::string &time = point.model().time_unit, rate_unit = unit_of_rate(point);
-    std::vector<Table::Column> columns{{"rate", rate_unit},   {"from", point.unit}, {"value", point.unit},
-                                       {"delay", point.unit}, {"delay_cycles", ""}, {"time", time},
-                                       {"ending", ""}};
-    if (point.fold)
-        columns.push_back({"predicted_delay", point.unit});
-    asked.table = Table(std::move(columns));
-    const std::vector<double> rates = numbers_by_decades(point.model(), asked.arguments.ramps, "--ramp");
+    const std::vector<double> rates = numbers_by_decades(point.model(), split_list(asked.arguments.ramps), "--ramp");
     const std::vector<RampRow> rows = with_place({"--ramp", 0, 0}, [&] {
         const auto from =
             asked.arguments.at.empty() ? std::nullopt : std::optional(asked.number(asked.arguments.at, "at"));
@@ -84,15 +77,11 @@ void ramp(AskedTrips& asked) {
     note_rows(asked, rates.size(), rows.size());
     for (const RampRow& row : rows) {
         const TripTime& trip = row.ramped.trip;
-        const double delay = row.delay.value_or(not_a_number);
         if (!trip.ended)
             asked.lacks.push_back(fmt::format("the ramp of {:g} has not come to its end: {}", row.rate,
                                               why_not(trip, "give more --cycles, or another end by --until")));
-        asked.table.add(row.rate, row.from, trip.ended ? row.ramped.value : not_a_number, delay,
-                        delay / (row.rate * point.cycle), trip.ended ? trip.time : not_a_number, trip.ending);
-        if (row.predicted_delay)
-            asked.table.add(*row.predicted_delay);
     }
+    asked.table = ramp_table(point, rows, unit_of_rate(point));
     asked.figure = ramp_figure(point, rows, asked.trip.end.words);
 }
 
@@ -101,9 +90,8 @@ void wave(AskedTrips& asked) {
     const TripOrigin origin = resting_origin(asked, "wave");
     constexpr double usual = 100; // cycles
     const double period = asked.arguments.wave_period.value_or(usual) * origin.cycle;
-    asked.table = Table(
-        {{"amplitude", point.unit}, {"trips", ""}, {"cycles", ""}, {"time", point.model().time_unit}, {"ending", ""}});
-    const std::vector<double> amplitudes = numbers_by_decades(point.model(), asked.arguments.waves, "--wave");
+    const std::vector<double> amplitudes =
+        numbers_by_decades(point.model(), split_list(asked.arguments.waves), "--wave");
     const std::vector<TripTime> trips = with_place({"--wave", 0, 0}, [&] {
         return swung_trips(point, origin, amplitudes, period, asked.trip.end.end, options_of(asked));
     });
@@ -114,9 +102,8 @@ void wave(AskedTrips& asked) {
             asked.lacks.push_back(
                 fmt::format("the wave of {:g} has not been simulated to its end: {}", amplitudes[i],
                             why_not(trip, "look at whether the parameter has a meaning as far as it swings")));
-        asked.table.add(amplitudes[i], trip.ended ? "yes" : "no", trip.ended ? trip.cycles : not_a_number,
-                        trip.ended ? trip.time : not_a_number, trip.ending);
     }
+    asked.table = wave_table(point, amplitudes, trips);
     asked.figure = wave_figure(point, origin, amplitudes, trips, asked.trip.end.words);
 }
 
@@ -136,9 +123,7 @@ void noise(AskedTrips& asked) {
     const LossPoint& point = asked.point;
     const TripOrigin origin = resting_origin(asked, "noise");
     const NoiseSettings settings = settings_of(asked);
-    asked.table = Table{{"level", point.unit}, {"motions", ""}, {"trips", ""},       {"probability", ""}, {"low", ""},
-                        {"high", ""},          {"beyond", ""},  {"half_cycles", ""}, {"failed", ""}};
-    const std::vector<double> levels = numbers_by_decades(point.model(), asked.arguments.noises, "--noise");
+    const std::vector<double> levels = numbers_by_decades(point.model(), split_list(asked.arguments.noises), "--noise");
     StatusLine line(asked.console, asked.console.terminal);
     const auto progress = [&](std::size_t level, std::size_t motions) {
         if (line.is_due())
@@ -150,15 +135,14 @@ void noise(AskedTrips& asked) {
     note_rows(asked, levels.size(), all.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
         const NoisyTrips& trips = all[i];
-        const double level = levels[i], share = static_cast<double>(trips.beyond) / static_cast<double>(trips.motions);
+        const double level = levels[i];
         for (const auto& [ending, count] : trips.failures)
             asked.lacks.push_back(fmt::format("{} of {} motions under the noise {:g} are not counted: they ended by "
                                               "{}; look at whether the parameter "
                                               "has a meaning as far as the noise takes it",
                                               count, trips.motions, level, ending));
-        asked.table.add(level, trips.motions, trips.trips, trips.probability.value, trips.probability.low,
-                        trips.probability.high, share, trips.half, trips.failed);
     }
+    asked.table = noise_table(point, levels, all);
     asked.figure = noise_figure(point, levels, all, settings);
 }
 

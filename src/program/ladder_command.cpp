@@ -1,4 +1,3 @@
-#include "base/special_numbers.hpp"
 #include "graze/study/stored_ladder.hpp"
 #include "program/commands.hpp"
 #include "program/interrupt.hpp"
@@ -12,22 +11,6 @@
 namespace graze {
 
 namespace {
-
-Table ladder_table(const StoredLadder& found, const std::string& parameter, const std::string& unit) {
-    Table table({{"grazing", ""}, {parameter, unit}, {"lambda", ""}, {"flip", unit}, {"fold", unit}});
-    const std::vector<SpecialPoint>& grazings = found.ladder.grazings();
-    const auto& leaving = found.leaving;
-    for (std::size_t k = 0; k < grazings.size(); ++k) {
-        table.add(k + 1, grazings[k].parameter);
-        const bool has_ratio = k + 2 < grazings.size();
-        table.add(has_ratio ? (grazings[k + 2].parameter - grazings[k + 1].parameter) /
-                                  (grazings[k + 1].parameter - grazings[k].parameter)
-                            : not_a_number,
-                  k < leaving.size() ? leaving[k].flip.value_or(not_a_number) : not_a_number,
-                  k < leaving.size() ? leaving[k].fold.value_or(not_a_number) : not_a_number);
-    }
-    return table;
-}
 
 JsonObject ladder_heading(const ResultFile& file, const StoredLadder& found) {
     const auto& [stored, parameter, ladder, leaving, limit, interrupted] = found;
@@ -86,8 +69,7 @@ int ladder_command(const LadderArguments& arguments, const Console& console) {
     const StoredLadder found = stored_ladder(file, request);
     const Model& model = found.first.run.model;
     const std::string parameter = model.independent_parameters()[found.parameter.place()];
-    const std::string unit = model.parameter_unit(parameter);
-    deliver(ladder_table(found, parameter, unit), arguments.output, ladder_heading(file, found), console);
+    deliver(ladder_table(found), arguments.output, ladder_heading(file, found), console);
     const std::size_t grazings = found.ladder.grazings().size();
     if (found.interrupted) {
         console.err << fmt::format("graze: interrupted after grazing {} of {}\n", grazings, arguments.rungs);

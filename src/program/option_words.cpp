@@ -47,6 +47,7 @@ constexpr Words remedies[] = {
     {"look at the sign of the current or the voltage",
      "look at the sign of the current or the voltage (--scale NAME=-1)"},
     {"look at the transitions of the model", "graze check MODEL lists the transitions; --graph FILE draws them"},
+    {"or choose another one by parameter", "or choose another one by --parameter"},
     {"name a parameter that does", "name a parameter that does by --parameter NAME"},
     {"or draw it all the same", "or draw it all the same by --despite-rules"},
     {"let `part` leave some", "let --from and --to leave some"},

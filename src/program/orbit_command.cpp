@@ -1,8 +1,7 @@
 #include "graze/base/input_error.hpp"
 #include "graze/picture/figure_script.hpp"
 #include "graze/picture/result_picture.hpp"
-#include "graze/results/orbit_motion.hpp"
-#include "graze/results/quantity_evaluator.hpp"
+#include "graze/results/orbit_table.hpp"
 #include "graze/results/stored_orbit.hpp"
 #include "program/commands.hpp"
 #include "program/drawing.hpp"
@@ -19,52 +18,18 @@ namespace {
 
 constexpr std::size_t default_samples = 200;
 
-Table orbit_table(const Model& model, const std::vector<SegmentMotion>& motion,
-                  const std::vector<RequestedQuantity>& quantities) {
-    StateColumns states(model, quantities);
-    Table table(states.after({{"segment", ""}, {"mode", ""}, {"end", ""}, {"t", model.time_unit}}));
-    for (std::size_t s = 0; s < motion.size(); ++s)
-        for (std::size_t i = 0; i < motion[s].times.size(); ++i) {
-            table.add(s + 1, model.modes[motion[s].mode].name, motion[s].end, motion[s].times[i]);
-            states.add(table, motion[s].states[i]);
-        }
-    return table;
-}
-
-/// Adds the orbit's certificate: how events are met at the ends of its segments, and how close other events come.
-void add_certificate(JsonObject& heading, const OrbitSolution& solution, const Model& model) {
-    const Certificate& certificate = solution.certificate;
-    std::vector<JsonObject> segments, minima, ends;
-    const auto at = [](const std::vector<double>& values, std::size_t s) {
-        return s < values.size() ? values[s] : std::nan("");
-    };
-    for (std::size_t s = 0; s < solution.orbit.segments(); ++s) {
-        JsonObject& segment = segments.emplace_back();
-        segment.add("segment", static_cast<double>(s + 1));
-        segment.add("end", end_name(model, solution.orbit.signature[s]));
-        segment.add("duration", solution.orbit.durations[s]);
-        segment.add("approach_speed", at(certificate.approach_speeds, s));
-        segment.add("departure", at(certificate.departures, s));
-        segment.add("guard_margin", at(certificate.guard_margins, s));
+/// The rows of a table; missing numbers are null.
+std::vector<JsonObject> rows_of(const Table& table) {
+    std::vector<JsonObject> rows;
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        JsonObject& object = rows.emplace_back();
+        for (std::size_t column = 0; column < table.columns().size(); ++column)
+            if (table.is_text(row, column))
+                object.add(table.columns()[column].name, table.text(row, column));
+            else
+                object.add(table.columns()[column].name, table.number(row, column));
     }
-    for (const OrbitMinimum& one : certificate.minima) {
-        JsonObject& minimum = minima.emplace_back();
-        minimum.add("segment", static_cast<double>(one.segment + 1));
-        minimum.add("event", model.events[one.event].name);
-        minimum.add("time", one.time);
-        minimum.add("value", one.value);
-        minimum.add("size", one.size);
-    }
-    for (const EndValue& one : certificate.end_values) {
-        JsonObject& end = ends.emplace_back();
-        end.add("segment", static_cast<double>(one.segment + 1));
-        end.add("event", model.events[one.event].name);
-        end.add("value", one.value);
-        end.add("rate", one.rate);
-    }
-    heading.add("segments", segments);
-    heading.add("minima", minima);
-    heading.add("end_values", ends);
+    return rows;
 }
 
 /// Real and imaginary parts of multipliers; infinite ones as a text. Multipliers do not exist after a contact without
@@ -106,7 +71,9 @@ JsonObject orbit_heading(const ResultFile& file, const StoredOrbit& stored) {
     heading.add("reason", solution.certificate.reason);
     heading.add("detail", record.point.detail);
     heading.add("residual", solution.residual);
-    add_certificate(heading, solution, model);
+    heading.add("segments", rows_of(segment_table(model, solution)));
+    heading.add("minima", rows_of(minimum_table(model, solution)));
+    heading.add("end_values", rows_of(end_value_table(model, solution)));
     return heading;
 }
 

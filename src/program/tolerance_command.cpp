@@ -1,10 +1,8 @@
-#include "base/special_numbers.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/with_place.hpp"
-#include "graze/branch/yield.hpp"
 #include "graze/picture/figure_script.hpp"
 #include "graze/picture/yield_picture.hpp"
-#include "graze/results/located_point.hpp"
+#include "graze/results/point_tolerances.hpp"
 #include "program/commands.hpp"
 #include "program/drawing.hpp"
 #include "program/interrupt.hpp"
@@ -30,64 +28,12 @@ struct Findings : LocatedPoint {
     std::optional<Yield> yield{};
 };
 
-/// Reads NAME=SIZE, NAME=SIZE% or NAME=SIZE:uniform.
-Tolerance tolerance_of(const Findings& found, const std::string& text) {
-    const Place place{fmt::format("--vary {}", text), 0, 0};
-    const std::size_t equals = text.find('='), colon = text.rfind(':');
-    const char* example = "write NAME=SIZE, with a percent sign for a part of the value, and with :uniform behind it "
-                          "where it is not a standard deviation";
-    if (equals == std::string::npos || equals == 0)
-        throw InputError(place, "no tolerance of any parameter", example);
-    Tolerance result;
-    const std::string name = text.substr(0, equals);
-    result.parameter = found.model.independent_parameter(name);
-    std::string size = text.substr(equals + 1);
-    if (colon != std::string::npos && colon > equals) {
-        const std::string word = text.substr(colon + 1);
-        if (word != "uniform" && word != "normal")
-            throw InputError(place, fmt::format("'{}' is no way in which devices differ", word),
-                             "write normal or uniform");
-        result.spread = word == "uniform" ? Spread::uniform : Spread::normal;
-        size = text.substr(equals + 1, colon - equals - 1);
-    }
-    const bool share = !size.empty() && size.back() == '%';
-    if (share)
-        size.pop_back();
-    if (size.empty())
-        throw InputError(place, "a tolerance without a size", example);
-    result.size = value_of(found.model, size, "--vary");
-    if (share) {
-        const double value = found.point.solution.orbit.parameters[result.parameter.place()];
-        if (value == 0)
-            throw InputError(place, fmt::format("'{}' is zero, of which there are no percents", name),
-                             "give the tolerance in its unit");
-        result.size *= 0.01 * std::abs(value);
-    }
-    if (result.size < 0)
-        throw InputError(place, "a tolerance below zero", "give its size");
-    if (result.parameter == found.located.control())
-        throw InputError(place, fmt::format("'{}' is the parameter whose value follows from the others", name),
-                         "vary others, or choose another one by --parameter");
-    return result;
-}
-
-void set_interval(Findings& found, const std::string& text) {
-    const std::size_t colon = text.find(':');
-    if (colon == std::string::npos || text.size() == 1)
-        throw InputError(Place{"--within", 0, 0}, fmt::format("'{}' is no interval", text),
-                         "write LOW:HIGH; one of the two may be left out");
-    if (colon > 0)
-        found.settings.least = value_of(found.model, text.substr(0, colon), "--within");
-    if (colon + 1 < text.size())
-        found.settings.greatest = value_of(found.model, text.substr(colon + 1), "--within");
-}
-
 void set_yield(Findings& found, const System& system, const ToleranceArguments& arguments, const Console& console) {
     YieldSettings& settings = found.settings;
     for (const std::string& item : split_list(arguments.vary))
-        settings.tolerances.push_back(tolerance_of(found, item));
+        settings.tolerances.push_back(read_tolerance(found, item, "--vary"));
     if (!arguments.within.empty())
-        set_interval(found, arguments.within);
+        read_interval(settings, found, arguments.within, "--within");
     settings.devices = arguments.devices;
     settings.seed = arguments.seed;
     settings.jobs = threads_for(arguments.jobs);
@@ -101,81 +47,19 @@ void set_yield(Findings& found, const System& system, const ToleranceArguments& 
         with_place({"--vary", 0, 0}, [&] { return yield_of(system, found.point, found.located.control(), settings); });
 }
 
-/// Derivatives by all parameters, and the contributions of those with tolerances.
-Table derivatives_of(const Findings& found) {
-    const LocatedValue& located = found.located;
-    std::vector<Table::Column> columns{{"parameter", ""}, {"value", ""}, {"d" + found.name, ""}, {"relative", ""}};
-    if (found.yield)
-        for (const char* name : {"deviation", "effect", "share"})
-            columns.push_back({name, ""});
-    Table table(columns);
-    const std::vector<std::string> names = found.model.independent_parameters();
-    for (std::size_t i = 0; i < located.others().size(); ++i) {
-        const ParameterId parameter = located.others()[i];
-        table.add(names[parameter.place()], located.values()[i], located.derivatives()[i],
-                  located.value() != 0 ? located.derivatives()[i] * located.values()[i] / located.value()
-                                       : not_a_number);
-        if (!found.yield)
-            continue;
-        const auto& tolerances = found.settings.tolerances;
-        const auto& parts = found.yield->contributions;
-        const auto tolerance = std::find_if(tolerances.begin(), tolerances.end(),
-                                            [&](const Tolerance& one) { return one.parameter == parameter; });
-        const auto part = std::find_if(parts.begin(), parts.end(),
-                                       [&](const Contribution& one) { return one.parameter == parameter; });
-        table.add(tolerance == tolerances.end() ? not_a_number : tolerance->deviation(),
-                  part == parts.end() ? not_a_number : part->deviation,
-                  part == parts.end() ? not_a_number : part->share);
-    }
-    return table;
-}
-
-/// Statistics as rows of a table and as members of a JSON object.
-class Statistics {
-public:
-    Statistics() : table_({{"quantity", ""}, {"value", ""}, {"low", ""}, {"high", ""}, {"meaning", ""}}) {}
-    void add(const std::string& name, double value, double low, double high, const std::string& meaning) {
-        table_.add(name, value, low, high, meaning);
-        values_.add(name, value);
+/// The statistics by their names.
+JsonObject values_of(const Table& statistics) {
+    JsonObject values;
+    for (std::size_t row = 0; row < statistics.rows(); ++row) {
+        const std::string& name = statistics.text(row, 0);
+        values.add(name, statistics.number(row, 1));
+        const double low = statistics.number(row, 2), high = statistics.number(row, 3);
         if (std::isfinite(low) || std::isfinite(high)) {
-            values_.add(name + "_low", low);
-            values_.add(name + "_high", high);
+            values.add(name + "_low", low);
+            values.add(name + "_high", high);
         }
     }
-    void add(const std::string& name, double value, const std::string& meaning) {
-        add(name, value, not_a_number, not_a_number, meaning);
-    }
-    void add(const std::string& name, const std::optional<ConfidenceInterval>& one, const std::string& meaning) {
-        if (one)
-            add(name, one->value, one->low, one->high, meaning);
-    }
-    const Table& table() const { return table_; }
-    const JsonObject& values() const { return values_; }
-
-private:
-    Table table_;
-    JsonObject values_;
-};
-
-Statistics statistics_of(const Findings& found) {
-    const Yield& yield = *found.yield;
-    Statistics result;
-    result.add("nominal", yield.nominal, fmt::format("{} without tolerances", found.name));
-    result.add("devices", static_cast<double>(yield.made), "that were made");
-    result.add("found", static_cast<double>(yield.found), "with a value; what follows is of them");
-    result.add("inadmissible", static_cast<double>(yield.inadmissible), "of which something else happens first");
-    result.add("failed", static_cast<double>(yield.failed), "not found by Newton's method");
-    result.add("mean", yield.mean, "");
-    result.add("deviation", yield.deviation, "standard deviation");
-    result.add("linear_deviation", yield.linear_deviation, "the same by the derivatives alone");
-    result.add("largest_departure", yield.largest_departure, "of a device from what the derivatives say");
-    for (const QuantileEstimate& one : yield.quantiles)
-        result.add(fmt::format("quantile_{:g}", one.share), one.value, one.low.value_or(not_a_number),
-                   one.high.value_or(not_a_number), "this share lies below");
-    result.add("within", yield.within, "share of all devices that is wanted");
-    if (yield.linear_within)
-        result.add("linear_within", *yield.linear_within, "the same by the derivatives alone");
-    return result;
+    return values;
 }
 
 JsonObject tolerance_heading(const ResultFile& file, const Findings& found) {
@@ -188,7 +72,7 @@ JsonObject tolerance_heading(const ResultFile& file, const Findings& found) {
         return heading;
     heading.add("seed", static_cast<double>(found.settings.seed));
     heading.add("confidence", found.settings.confidence);
-    heading.add("statistics", statistics_of(found).values());
+    heading.add("statistics", values_of(yield_table(*found.yield, found.name)));
     std::vector<JsonObject> problems;
     for (const auto& [problem, count] : found.yield->problems) {
         JsonObject& one = problems.emplace_back();
@@ -209,11 +93,12 @@ void show(const ResultFile& file, const Findings& found, const OutputArguments& 
         text << fmt::format("{} = {:.{}g}{}{}\n\n", found.name, found.located.value(), output.shown_digits(),
                             found.unit.empty() ? "" : " ", found.unit);
     if (output.format != TableFormat::csv || !found.yield)
-        deliver(derivatives_of(found), here, tolerance_heading(file, found), inner);
+        deliver(derivative_table(found, &found.settings, found.yield ? &*found.yield : nullptr), here,
+                tolerance_heading(file, found), inner);
     if (output.format == TableFormat::table && found.yield)
         text << '\n';
     if (output.format != TableFormat::json && found.yield)
-        deliver(statistics_of(found).table(), here, {}, inner);
+        deliver(yield_table(*found.yield, found.name), here, {}, inner);
     if (output.file.empty()) {
         console.out << text.str();
         require_delivered(console);

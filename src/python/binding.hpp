@@ -47,11 +47,21 @@ py::array_t<Number> array_of(std::vector<Number> numbers, std::vector<py::ssize_
 }
 
 // Each adds its part to the module.
+void bind_analyses(py::module_& module);
+void bind_designs(py::module_& module);
 void bind_errors(py::module_& module);
+void bind_experiments(py::module_& module);
 void bind_expressions(py::module_& module);
+void bind_figures(py::module_& module);
+void bind_layouts(py::module_& module);
 void bind_models(py::module_& module);
 void bind_motions(py::module_& module);
+void bind_parts(py::module_& module);
+void bind_records(py::module_& module);
 void bind_results(py::module_& module);
 void bind_studies(py::module_& module);
+void bind_trips(py::module_& module);
+/// To be called last.
+void forbid_raw_objects(py::module_& module);
 
 } // namespace graze::python

@@ -17,10 +17,9 @@ void raise(const Error& error) {
     try {
         py::object made = error_of(error);
         if (const auto* several = dynamic_cast<const InputErrors*>(&error)) {
-            py::list all;
-            for (const InputError& one : several->all())
-                all.append(error_of(one));
-            made.attr("all") = all;
+            py::list all = made.attr("all"); // this one, which is the first
+            for (std::size_t i = 1; i < several->all().size(); ++i)
+                all.append(error_of(several->all()[i]));
         }
         PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(made.ptr())), made.ptr());
     } catch (py::error_already_set& other) {

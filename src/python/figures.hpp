@@ -5,7 +5,7 @@
 
 namespace graze::python {
 
-/// A figure as dictionaries and lists with the names of the C++ members; points are arrays of two columns.
-py::object object_of(const Figure& figure);
+/// A figure as an object of Python (class `_graze.Figure`), which knows its data and where texts and labels have room.
+py::object object_of(Figure figure);
 
 } // namespace graze::python

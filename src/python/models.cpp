@@ -1,12 +1,12 @@
 #include "graze/flow/system.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/model/model_file.hpp"
+#include "graze/model/named_value.hpp"
+#include "graze/results/model_findings.hpp"
+#include "graze/results/model_table.hpp"
 #include "graze/symbolic/transform.hpp"
-#include "python/binding.hpp"
-
-#include <algorithm>
-#include <optional>
-#include <string_view>
+#include "python/attended.hpp"
+#include "python/tables.hpp"
 
 namespace graze::python {
 
@@ -33,14 +33,6 @@ py::list parameters_of(const HeldModel& self) {
         list.append(item);
     }
     return list;
-}
-
-/// Values of all parameters, those that follow from others too.
-std::vector<double> values_of_parameters(const HeldModel& self) {
-    std::vector<Expression> all;
-    for (const Parameter& one : self.model.parameters)
-        all.push_back(self.model.symbol(one.name));
-    return self.model.values_of(all);
 }
 
 py::list states_of(const HeldModel& self) {
@@ -81,14 +73,15 @@ py::list transitions_of(const HeldModel& self) {
     return list;
 }
 
-/// The value of an expression in parameters, at their present values.
-double value_of(const HeldModel& self, const std::string& text) {
-    Model copy = self.model;
-    Scope scope;
-    for (const Parameter& one : copy.parameters)
-        scope.emplace(one.name, copy.symbol(one.name));
-    const Expression parsed = parse_expression(*copy.graph, text, scope);
-    return copy.values_of(std::vector{parsed}).front();
+/// Pairs of the part that a warning is about and its text.
+py::list findings_of(const HeldModel& self) {
+    const Model copy = self.model; // the thread does not see what becomes of the model
+    std::vector<ModelWarning> warnings;
+    attended([&](const std::function<bool()>&) { warnings = model_findings(copy); });
+    py::list list;
+    for (const ModelWarning& one : warnings)
+        list.append(py::make_tuple(one.part, one.text));
+    return list;
 }
 
 } // namespace
@@ -117,7 +110,9 @@ void bind_models(py::module_& module) {
                                [](const HeldModel& self) { return names_and_texts(self.model.symmetries); })
         .def_property_readonly("quantities", &quantities_of)
         .def_property_readonly("transitions", &transitions_of)
-        .def("parameter_values", &values_of_parameters)
+        .def_property_readonly("definitions",
+                               [](const HeldModel& self) { return names_and_texts(self.model.definitions); })
+        .def("parameter_values", [](const HeldModel& self) { return all_parameter_values(self.model); })
         .def("independent_parameters", [](const HeldModel& self) { return self.model.independent_parameters(); })
         .def("set_parameter",
              [](HeldModel& self, const std::string& name, double value) { self.model.set_parameter(name, value); })
@@ -130,7 +125,16 @@ void bind_models(py::module_& module) {
             "initial_mode", [](const HeldModel& self) { return self.model.modes[self.model.initial_mode].name; },
             [](HeldModel& self, const std::string& name) { self.model.set_initial_mode(name); })
         .def("initial_state", [](const HeldModel& self) { return self.model.initial_state(); })
-        .def("value_of", &value_of, py::arg("text"));
+        .def("periods", [](const HeldModel& self) { return self.model.periods(); })
+        .def(
+            "value_of",
+            [](const HeldModel& self, const std::string& text, const std::string& called) {
+                return value_of_text(self.model, text, {called, 0, 0});
+            },
+            py::arg("text"), py::arg("called"))
+        .def("findings", &findings_of)
+        .def("listing", [](const HeldModel& self) { return model_listing(self.model); })
+        .def("table", [](const HeldModel& self) { return columns_of(model_table(self.model)); });
 
     module.def("shipped_models", [] {
         py::list list;

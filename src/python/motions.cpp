@@ -6,6 +6,7 @@
 #include "graze/study/plain_states.hpp"
 #include "graze/study/run_length.hpp"
 #include "graze/trajectory/recorder.hpp"
+#include "python/attended.hpp"
 #include "python/figures.hpp"
 #include "python/tables.hpp"
 
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <mutex>
 #include <optional>
 
 namespace graze::python {
@@ -21,41 +23,66 @@ namespace graze::python {
 namespace {
 
 /// Looks for signals, such as Ctrl-C, while a trajectory is computed by the thread that has called from Python.
-class SignalWatch {
+class Watch {
 public:
     /// @param told called with the completed fraction (negative: unknown) and the time; may be None
-    explicit SignalWatch(py::object told) : told_(std::move(told)) {}
+    explicit Watch(const py::object& told) : told_(told) {}
 
     /// Without the interpreter's lock. @return true when the computation has to end
     bool asks_to_stop() {
         constexpr int calls_between_clock_reads = 64;
         if (raised_ || ++calls_ % calls_between_clock_reads != 0 || Clock::now() < next_)
             return raised_ != nullptr;
-        next_ = Clock::now() + std::chrono::milliseconds(20);
-        const py::gil_scoped_acquire locked;
-        try {
-            if (PyErr_CheckSignals() != 0)
-                throw py::error_already_set();
-            if (!told_.is_none())
-                told_(fraction_, time_);
-        } catch (...) {
-            raised_ = std::current_exception();
-        }
+        if (process_is_ending())
+            return true;
+        unlocked_->locked([this] {
+            try {
+                handle_signals();
+                if (!told_.is_none())
+                    told_(fraction_, time_);
+            } catch (...) {
+                raised_ = std::current_exception();
+            }
+        });
+        next_ = Clock::now() + between_looks;
         return raised_ != nullptr;
     }
     void note(std::optional<double> fraction, double time) {
         fraction_ = fraction.value_or(-1);
         time_ = time;
     }
+    bool has_raised() const { return raised_ != nullptr; }
     void rethrow() const {
         if (raised_)
             std::rethrow_exception(raised_);
     }
+    /// What a handler of signals or `told` has raised; None: nothing. With the interpreter's lock.
+    py::object raised() const {
+        try {
+            rethrow();
+        } catch (const py::error_already_set& error) {
+            if (error.trace())
+                PyException_SetTraceback(error.value().ptr(), error.trace().ptr());
+            return error.value();
+        }
+        return py::none();
+    }
+    /// Does work without the interpreter's lock.
+    template <class Doing>
+    void during(Doing&& work) {
+        Unlocked unlocked;
+        unlocked_ = &unlocked;
+        const RunningWork running;
+        work();
+    }
 
 private:
     using Clock = std::chrono::steady_clock;
-    py::object told_;
-    Clock::time_point next_ = Clock::now() + std::chrono::milliseconds(20);
+    // To get the interpreter's lock takes 5 ms where another thread of Python computes.
+    static constexpr std::chrono::milliseconds between_looks{40};
+    const py::object& told_;
+    Unlocked* unlocked_ = nullptr;
+    Clock::time_point next_ = Clock::now() + between_looks;
     int calls_ = 0;
     double fraction_ = -1, time_ = 0;
     std::exception_ptr raised_;
@@ -66,63 +93,155 @@ double reduced(double value, double period) {
     return period > 0 ? value - period * std::floor(value / period) : value;
 }
 
-/// Samples at times that the user gives.
-class GivenTimes : public Observer {
-public:
-    /// @param times in rising order, counted from the beginning of what is shown
-    GivenTimes(std::vector<double> times, std::vector<double> periods)
-        : times_(std::move(times)), periods_(std::move(periods)) {
-        const auto wrong = [](double time) { return !(time >= 0) || !std::isfinite(time); };
-        if (std::ranges::any_of(times_, wrong) || !std::ranges::is_sorted(times_))
-            throw InputError(Place{"at", 0, 0}, "the times do not rise from 0 or later",
-                             "sort them; they count from the beginning of what is shown");
-    }
-    void begin(double time) { begin_ = time; }
-
-    void step(const Step& step) override {
-        const double start = step.start - begin_;
-        for (; taken_ < times_.size() && times_[taken_] <= start + step.length; ++taken_)
-            for (std::size_t i = 0; i < periods_.size(); ++i)
-                states_.push_back(reduced(step.state(i, std::max(0.0, times_[taken_] - start)), periods_[i]));
-    }
-    std::size_t taken() const { return taken_; }
-    double last() const { return times_.empty() ? 0 : times_.back(); }
-    std::vector<double>& states() { return states_; }
-
-private:
-    std::vector<double> times_, periods_, states_;
-    std::size_t taken_ = 0;
-    double begin_ = 0;
-};
+using NamedNumbers = std::vector<std::pair<std::string, double>>;
 
 /// What is asked of one motion.
-struct MotionLength : RunLengthRequest {
+struct MotionRequest {
+    RunLengthRequest length;
     std::size_t samples = 500;
     std::optional<double> every;
     std::optional<std::vector<double>> at; ///< times, counted from the beginning of what is shown
     std::vector<std::string> derivatives;
+    std::optional<std::vector<std::string>> events; ///< whose contacts are shown and counted; none: all
     bool dense = false;
+    std::optional<std::vector<double>> state; ///< where it begins; none: the model's, as its mode
+    std::optional<std::string> mode;
+    NamedNumbers set; ///< other values of parameters
 };
 
-/// A motion while it is computed.
-struct Motion {
-    std::vector<std::pair<std::string, std::shared_ptr<TableRecorder>>> tables;
-    std::shared_ptr<GivenTimes> given;
-    std::shared_ptr<StepRecorder> steps;
+bool is_same(const RunLengthRequest& one, const RunLengthRequest& other) {
+    return one.time == other.time && one.periods == other.periods && one.contacts == other.contacts &&
+           one.after == other.after && one.skip == other.skip && one.phase == other.phase;
+}
+
+/// The table of samples at times that the user gives.
+class GivenTimes : public TableRecorder {
+public:
+    /// @param times in rising order, counted from the beginning of what is shown
+    GivenTimes(const Simulation& simulation, const std::vector<NamedValue>& quantities, std::vector<double> times)
+        : model_(&simulation.model()), columns_(*model_, quantities), times_(std::move(times)),
+          state_(model_->states.size()) {
+        const auto wrong = [](double time) { return !(time >= 0) || !std::isfinite(time); };
+        if (std::ranges::any_of(times_, wrong) || !std::ranges::is_sorted(times_))
+            throw InputError(Place{"at", 0, 0}, "the times do not rise from 0 or later",
+                             "sort them; they count from the beginning of what is shown");
+        table_ = Table(columns_.after({{"time", model_->time_unit}, {"mode", ""}}));
+    }
+    void begin(const Trajectory& trajectory, std::optional<double> /*duration*/) override {
+        begin_ = trajectory.time();
+        columns_.set_parameters(trajectory.parameters());
+        periods_ = trajectory.simulation().system().periods()(trajectory.parameters());
+    }
+    void step(const Step& step) override {
+        const double start = step.start - begin_;
+        for (; taken_ < times_.size() && times_[taken_] <= start + step.length; ++taken_) {
+            for (std::size_t i = 0; i < state_.size(); ++i)
+                state_[i] = step.state(i, std::max(0.0, times_[taken_] - start));
+            add(step.mode);
+        }
+    }
+    /// The end of the motion is known to a round-off error only.
+    void finish(const Trajectory& trajectory) override {
+        const double end = trajectory.time() - begin_;
+        for (; !periods_.empty() && taken_ < times_.size() && times_[taken_] <= end + 1e-14 * trajectory.time();
+             ++taken_) {
+            std::ranges::copy(trajectory.state(), state_.begin());
+            add(trajectory.mode());
+        }
+    }
+
+private:
+    void add(std::size_t mode) {
+        for (std::size_t i = 0; i < state_.size(); ++i)
+            state_[i] = reduced(state_[i], periods_[i]);
+        table_.add(begin_ + times_[taken_], model_->modes[mode].name);
+        columns_.add(table_, state_);
+    }
+    const Model* model_;
+    StateColumns columns_;
+    std::vector<double> times_, periods_, state_;
+    std::size_t taken_ = 0;
+    double begin_ = 0;
+};
+
+/// Keeps the steps of a motion until they take too much memory.
+class KeptSteps : public StepRecorder {
+public:
+    void step(const Step& step) override {
+        StepRecorder::step(step);
+        numbers_ += steps().back().coefficients.size();
+    }
+    bool is_full() const { return numbers_ >= most_numbers; }
+
+private:
+    static constexpr std::size_t most_numbers = 250'000'000; ///< 2 GB
+    std::size_t numbers_ = 0;
+};
+
+/// The steps of a motion, from which its state at any time follows.
+class DenseSteps {
+public:
+    DenseSteps(std::shared_ptr<KeptSteps> steps, std::vector<double> periods)
+        : steps_(std::move(steps)), periods_(std::move(periods)) {}
+
+    /// States at these times, row by row. At the time of a contact: those before it. Not a number outside of the
+    /// motion.
+    py::array_t<double> at(const py::array_t<double, py::array::c_style | py::array::forcecast>& times) const {
+        const std::vector<RecordedStep>& steps = steps_->steps();
+        std::vector<double> states;
+        states.reserve(static_cast<std::size_t>(times.size()) * periods_.size());
+        for (const double time : std::span(times.data(), static_cast<std::size_t>(times.size()))) {
+            const auto after = std::ranges::lower_bound(
+                steps, time, {}, [](const RecordedStep& step) { return step.start + step.length; });
+            const bool outside = after == steps.end() || !(time >= after->start);
+            for (std::size_t i = 0; i < periods_.size(); ++i)
+                states.push_back(outside ? std::numeric_limits<double>::quiet_NaN()
+                                         : reduced(after->state(i, time - after->start), periods_[i]));
+        }
+        return array_of(std::move(states),
+                        {static_cast<py::ssize_t>(times.size()), static_cast<py::ssize_t>(periods_.size())});
+    }
+
+private:
+    std::shared_ptr<KeptSteps> steps_;
+    std::vector<double> periods_;
+};
+
+/// A computed motion, with its tables. They become arrays when they are asked for.
+class Motion {
+public:
+    bool is_full() const {
+        return std::ranges::any_of(tables, [](const auto& table) { return table->is_full(); }) ||
+               (steps && steps->is_full());
+    }
+    /// None if it was not asked for.
+    py::object table(const std::string& name) const {
+        const auto kind = table_kind(name);
+        for (std::size_t i = 0; i < tables.size(); ++i)
+            if (kinds[i] == kind)
+                return columns_of(tables[i]->table());
+        return py::none();
+    }
+    std::string ending() const {
+        return is_interrupted                                   ? "interrupted"
+               : is_full() && outcome.ending == Ending::stopped ? "table-full"
+                                                                : std::string(name_of(outcome.ending));
+    }
+    bool is_regular() const {
+        return !is_interrupted && graze::is_regular(outcome.ending) &&
+               !(is_full() && outcome.ending == Ending::stopped);
+    }
+    py::object dense() const { return steps ? py::cast(DenseSteps(steps, periods)) : py::none(); }
+
+    std::vector<TableKind> kinds;
+    std::vector<std::shared_ptr<TableRecorder>> tables;
+    std::shared_ptr<KeptSteps> steps;
     std::vector<double> periods, state;
     Outcome outcome;
     std::string mode;
     std::size_t steps_made = 0;
-
-    bool is_full() const {
-        return std::ranges::any_of(tables, [](const auto& table) { return table.second->is_full(); });
-    }
-    void begin_at(const Trajectory& trajectory, std::optional<double> duration) {
-        for (const auto& table : tables)
-            table.second->begin(trajectory, duration);
-        if (given)
-            given->begin(trajectory.time());
-    }
+    bool is_interrupted = false;
+    py::object raised = py::none(); ///< by a handler of signals, or a function of progress
 };
 
 NamedValue asked_value(const Model& model, const std::string& text, const char* argument) {
@@ -136,33 +255,27 @@ std::vector<NamedValue> asked_values(const Model& model, const std::vector<std::
     return values;
 }
 
-/// The steps of a motion, from which its state at any time follows.
-class DenseSteps {
+/// A simulation with the jets that its motions have used, for the next ones.
+class JetPool {
 public:
-    DenseSteps(std::shared_ptr<StepRecorder> steps, std::vector<double> periods)
-        : steps_(std::move(steps)), periods_(std::move(periods)) {}
-
-    /// States at these times, row by row. At the time of a contact: those before it. Not a number outside of the
-    /// motion.
-    py::array_t<double> at(const std::vector<double>& times) const {
-        const std::vector<RecordedStep>& steps = steps_->steps();
-        std::vector<double> states;
-        states.reserve(times.size() * periods_.size());
-        for (const double time : times) {
-            const auto after = std::ranges::lower_bound(
-                steps, time, {}, [](const RecordedStep& step) { return step.start + step.length; });
-            const bool outside = after == steps.end() || !(time >= after->start);
-            for (std::size_t i = 0; i < periods_.size(); ++i)
-                states.push_back(outside ? std::numeric_limits<double>::quiet_NaN()
-                                         : reduced(after->state(i, time - after->start), periods_[i]));
+    explicit JetPool(Simulation of) : simulation(std::move(of)) {}
+    std::unique_ptr<JetSet> take(bool with_derivatives) {
+        if (const std::lock_guard lock(mutex_); !with_derivatives && !jets_.empty()) {
+            auto last = std::move(jets_.back());
+            jets_.pop_back();
+            return last;
         }
-        return array_of(std::move(states),
-                        {static_cast<py::ssize_t>(times.size()), static_cast<py::ssize_t>(periods_.size())});
+        return std::make_unique<JetSet>(simulation, LaneKind::single);
     }
+    void give_back(std::unique_ptr<JetSet> jets) {
+        if (const std::lock_guard lock(mutex_); !jets->has_tangents())
+            jets_.push_back(std::move(jets));
+    }
+    const Simulation simulation; // NOLINT(cppcoreguidelines-avoid-const-or-ref-data-members)
 
 private:
-    std::shared_ptr<StepRecorder> steps_;
-    std::vector<double> periods_;
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<JetSet>> jets_;
 };
 
 /// A model ready to be simulated, as often as wanted, with what is looked for on the way.
@@ -170,7 +283,8 @@ class HeldSimulation {
 public:
     HeldSimulation(HeldModel& of, const std::vector<std::string>& sections, const std::vector<std::string>& extrema,
                    const std::vector<std::string>& quantities, const SimulationOptions& options)
-        : model_(of.model), quantities_(asked_values(model_, quantities, "quantities")),
+        : model_(of.model), parameters_(model_.parameter_values()),
+          quantities_(asked_values(model_, quantities, "quantities")),
           extrema_(asked_values(model_, extrema, "extrema")), options_(options) {
         options_.validate();
         for (const std::string& name : sections)
@@ -178,65 +292,123 @@ public:
         first_extremum_ = probes_.size();
         for (const NamedValue& one : extrema_)
             probes_.push_back({one.name, Probe::Kind::extremum, one.value, Direction::both, 0, {}});
-        simulation_.emplace(*of.system(), probes_, std::vector<Expression>{}, options_);
+        pool_ = std::make_shared<JetPool>(Simulation(*of.system(), probes_, std::vector<Expression>{}, options_));
     }
 
-    /// @param state, mode where it begins; none: the model's
     /// @param told is called now and then with what is done
-    Motion run(const MotionLength& asked, const std::optional<std::vector<double>>& state,
-               const std::optional<std::string>& mode, const py::object& told) {
-        SignalWatch watch(told);
-        const Simulation simulation = simulation_of(asked);
+    Motion run(const MotionRequest& asked, const py::object& told) {
+        Watch watch(told);
+        Plan plan = plan_of(asked);
         Motion motion;
-        {
-            const py::gil_scoped_release unlocked;
-            compute(motion, simulation, {asked, state, mode}, watch);
-        }
-        watch.rethrow();
+        watch.during([&] { compute(motion, asked, plan, watch); });
+        motion.raised = watch.raised();
         return motion;
     }
 
-    py::object figure(const MotionLength& asked, const std::optional<std::vector<double>>& state,
-                      const std::optional<std::string>& mode, const std::vector<std::string>& histories,
+    py::object figure(const MotionRequest& asked, const std::vector<std::string>& histories,
                       const std::vector<std::pair<std::string, std::string>>& portraits) {
-        SignalWatch watch{py::none()};
-        const Simulation simulation = simulation_of(asked);
+        const py::none nothing;
+        Watch watch(nothing);
+        const Plan plan = plan_of(asked);
         Figure figure;
-        {
-            const py::gil_scoped_release unlocked;
-            const auto curves = std::make_shared<MotionRecorder>(simulation, panels(histories, portraits));
-            curves->finish(moved(simulation, {asked, state, mode}, watch, {curves}, nullptr));
+        watch.during([&] {
+            const auto curves =
+                std::make_shared<MotionRecorder>(plan.pool->simulation, panels(asked, plan, histories, portraits));
+            curves->set_parameters(plan.parameters);
+            curves->finish(moved(asked, plan, watch, {curves}, nullptr));
             figure = trajectory_figure(*curves);
-        }
+        });
         watch.rethrow();
         return object_of(figure);
     }
 
-    const Model& model() const { return model_; }
-
-private:
-    struct Asked {
-        const MotionLength& length;
-        const std::optional<std::vector<double>>& state;
-        const std::optional<std::string>& mode;
-    };
-
-    /// With the probe that counts periods, if they are counted: another simulation, made when it is needed first. To be
-    /// called with the interpreter's lock.
-    Simulation simulation_of(const MotionLength& asked) {
-        const RunLength length = run_length(model_, asked);
-        if (!length.period)
-            return *simulation_;
-        if (!counting_ || counted_ != asked.phase) {
-            std::vector<Probe> probes = probes_;
-            probes.push_back(*length.period); // the last: it ends the motion, and what others see then comes before
-            counting_.emplace(simulation_->system(), std::move(probes), std::vector<Expression>{}, options_);
-            counted_ = asked.phase;
-        }
-        return *counting_;
+    /// The value of an expression in parameters, given some others.
+    double value_of(const std::string& text, const NamedNumbers& set, const char* argument) const {
+        Model model = model_;
+        for (const auto& [name, value] : set)
+            model.set_parameter(name, value);
+        return model.values_of(std::vector{asked_value(model, text, argument).value}).front();
     }
 
-    MotionPanelChoice panels(const std::vector<std::string>& histories,
+private:
+    /// How a motion is to be computed.
+    struct Plan {
+        std::shared_ptr<JetPool> pool;
+        RunLength length;
+        std::vector<double> parameters, state;
+        std::size_t mode = 0;
+        std::vector<bool> events;
+    };
+
+    /// With the interpreter's lock.
+    Plan plan_of(const MotionRequest& asked) {
+        Plan plan{pool_, {}, parameters_, {}, mode_named(asked.mode), chosen_events(asked.events)};
+        std::optional<Model> other; // than the model as it was given
+        if (!asked.set.empty()) {
+            other = model_;
+            for (const auto& [name, value] : asked.set)
+                other->set_parameter(name, value);
+            plan.parameters = other->parameter_values();
+        } else if (!asked.state && initial_.empty()) {
+            initial_ = model_.initial_state();
+        }
+        plan.state = asked.state ? *asked.state : other ? other->initial_state() : initial_;
+        if (!other && !asked.state && length_ && is_same(asked.length, length_->first)) {
+            plan.length = length_->second;
+        } else {
+            if (asked.state && (!asked.length.time || asked.length.skip)) { // periods of the phase with which it begins
+                if (!other)
+                    other = model_;
+                if (plan.state.size() == other->states.size())
+                    for (std::size_t i = 0; i < plan.state.size(); ++i)
+                        other->set_initial(other->states[i].name, plan.state[i]);
+            }
+            plan.length = run_length(other ? *other : model_, asked.length);
+            if (!other && !asked.state)
+                length_ = {asked.length, plan.length};
+        }
+        if (plan.length.period)
+            plan.pool = counting_pool(*plan.length.period);
+        return plan;
+    }
+
+    /// With the probe that counts periods, which is the last: it ends the motion, and what others see then comes
+    /// before.
+    std::shared_ptr<JetPool> counting_pool(const Probe& period) {
+        const double value = period.value.node().value; // run_length has made it a number
+        if (!counting_ || counted_state_ != period.state || counted_value_ != value) {
+            std::vector<Probe> probes = probes_;
+            probes.push_back(period);
+            counting_ = std::make_shared<JetPool>(
+                Simulation(pool_->simulation.system(), std::move(probes), std::vector<Expression>{}, options_));
+            counted_state_ = period.state;
+            counted_value_ = value;
+        }
+        return counting_;
+    }
+
+    std::vector<bool> chosen_events(const std::optional<std::vector<std::string>>& names) const {
+        std::vector<bool> chosen(model_.events.size(), !names);
+        for (const std::string& name : names ? *names : std::vector<std::string>{}) {
+            const auto event = model_.find_event(name);
+            if (!event)
+                throw InputError(Place{"events", 0, 0}, "the model has no event '" + name + "'",
+                                 name_advice(name, names_of(model_.events), "it has none"));
+            chosen[*event] = true;
+        }
+        return chosen;
+    }
+
+    std::size_t mode_named(const std::optional<std::string>& name) const {
+        if (!name)
+            return model_.initial_mode;
+        if (const auto mode = model_.find_mode(*name))
+            return *mode;
+        throw InputError(Place{"mode", 0, 0}, "the model has no mode '" + *name + "'",
+                         name_advice(*name, names_of(model_.modes), "it has none"));
+    }
+
+    MotionPanelChoice panels(const MotionRequest& asked, const Plan& plan, const std::vector<std::string>& histories,
                              const std::vector<std::pair<std::string, std::string>>& portraits) const {
         MotionPanelChoice choice;
         choice.chosen = !histories.empty();
@@ -261,83 +433,91 @@ private:
         }
         if (choice.histories.empty() && choice.portraits.empty())
             throw InputError("there is nothing to draw: all states are cyclic or drifting", "name quantities");
-        for (const Event& event : model_.events)
-            choice.marked.push_back(event.kind == EventKind::barrier && is_met_by_motion(model_, event));
+        for (std::size_t i = 0; i < model_.events.size(); ++i) {
+            const Event& event = model_.events[i];
+            choice.marked.push_back(asked.events ? plan.events[i]
+                                                 : event.kind == EventKind::barrier && is_met_by_motion(model_, event));
+        }
         return choice;
     }
 
     /// @param motion receives tables; null: nothing but the observers does
-    Trajectory moved(const Simulation& simulation, const Asked& asked, SignalWatch& watch,
-                     std::vector<std::shared_ptr<Observer>> observers, Motion* motion) const {
-        const RunLength length = run_length(model_, asked.length);
+    static Trajectory moved(const MotionRequest& asked, const Plan& plan, Watch& watch,
+                            std::vector<std::shared_ptr<Observer>> observers, Motion* motion) {
+        const Simulation& simulation = plan.pool->simulation;
+        const RunLength& length = plan.length;
         const auto period = length.period ? std::optional(simulation.probes().size() - 1) : std::nullopt;
-        const auto control = std::make_shared<RunControl>(std::make_shared<Relay>(std::move(observers)), period,
-                                                          std::vector<bool>(model_.events.size(), true));
+        const auto control =
+            std::make_shared<RunControl>(std::make_shared<Relay>(std::move(observers)), period, plan.events);
         control->tell([&watch](std::optional<double> fraction, double time) { watch.note(fraction, time); });
         control->end_when([&watch, motion] { return watch.asks_to_stop() || (motion && motion->is_full()); });
-        Trajectory trajectory(simulation, model_.parameter_values(), control);
+        Trajectory trajectory(simulation, plan.parameters, control);
         const LegEnd& first = length.transient.empty() ? length.shown : length.transient;
-        trajectory.start(asked.state ? *asked.state : model_.initial_state(), mode_named(asked.mode), 0,
-                         first.duration);
-        if (!asked.length.derivatives.empty())
-            trajectory.carry_derivatives(asked.length.derivatives);
-        JetSet jets(simulation, LaneKind::single);
-        if (!length.transient.empty()) {
+        trajectory.start(plan.state, plan.mode, 0, first.duration);
+        if (!asked.derivatives.empty())
+            trajectory.carry_derivatives(asked.derivatives);
+        auto jets = plan.pool->take(!asked.derivatives.empty());
+        const auto show = [&] {
+            control->begin(length.shown, trajectory.time(), true);
+            if (motion)
+                for (const auto& table : motion->tables)
+                    table->begin(trajectory, length.shown.expected);
+            graze::run(trajectory, *jets);
+        };
+        if (length.transient.empty()) {
+            show();
+        } else {
             control->begin(length.transient, 0, false);
-            graze::run(trajectory, jets);
+            graze::run(trajectory, *jets);
             const Ending ending = trajectory.outcome().ending;
-            if (watch.asks_to_stop() || (ending != Ending::end_time && ending != Ending::stopped))
-                return trajectory;
-            trajectory.extend(trajectory.time() + length.shown.duration);
+            if (!watch.has_raised() && (ending == Ending::end_time || ending == Ending::stopped)) {
+                trajectory.extend(trajectory.time() + length.shown.duration);
+                show();
+            }
         }
-        control->begin(length.shown, trajectory.time(), true);
-        if (motion)
-            motion->begin_at(trajectory, length.shown.expected);
-        graze::run(trajectory, jets);
+        plan.pool->give_back(std::move(jets));
         return trajectory;
     }
 
-    std::size_t mode_named(const std::optional<std::string>& name) const {
-        if (!name)
-            return model_.initial_mode;
-        if (const auto mode = model_.find_mode(*name))
-            return *mode;
-        throw InputError(Place{"mode", 0, 0}, "the model has no mode '" + *name + "'",
-                         name_advice(*name, names_of(model_.modes), "it has none"));
-    }
-
-    void compute(Motion& motion, const Simulation& simulation, const Asked& asked, SignalWatch& watch) const {
-        motion.periods = simulation.system().periods()(model_.parameter_values());
+    void compute(Motion& motion, const MotionRequest& asked, const Plan& plan, Watch& watch) const {
+        const Simulation& simulation = plan.pool->simulation;
         TableRequest request;
         request.quantities = quantities_;
         request.extrema = extrema_;
         request.first_extremum = first_extremum_;
-        request.events.assign(model_.events.size(), true);
-        request.samples = std::max<std::size_t>(asked.length.samples, 2);
-        request.every = asked.length.every;
-        request.directions = asked.length.derivatives;
-        const auto add = [&](const char* name, TableKind kind, bool wanted) {
+        request.events = plan.events;
+        request.samples = asked.samples;
+        request.every = asked.every;
+        request.directions = asked.derivatives;
+        std::vector<std::shared_ptr<Observer>> observers;
+        const auto keep = [&](TableKind kind, std::shared_ptr<TableRecorder> table) {
+            motion.kinds.push_back(kind);
+            observers.push_back(table);
+            motion.tables.push_back(std::move(table));
+        };
+        const auto add = [&](TableKind kind, bool wanted) {
             if (!wanted)
                 return;
             request.kind = kind;
-            motion.tables.emplace_back(name, make_table_recorder(simulation, request));
+            keep(kind, make_table_recorder(simulation, request));
         };
-        add("samples", TableKind::samples, asked.length.samples > 0 && !asked.length.at);
-        add("contacts", TableKind::contacts, true);
-        add("sections", TableKind::sections, first_extremum_ > 0);
-        add("extrema", TableKind::extrema, !extrema_.empty());
-        add("minima", TableKind::minima, options_.minima);
-        add("derivatives", TableKind::derivatives, !asked.length.derivatives.empty());
-        std::vector<std::shared_ptr<Observer>> observers;
+        if (asked.at)
+            keep(TableKind::samples, std::make_shared<GivenTimes>(simulation, quantities_, *asked.at));
+        add(TableKind::samples, asked.samples > 0 && !asked.at);
+        add(TableKind::contacts, true);
+        add(TableKind::sections, first_extremum_ > 0);
+        add(TableKind::extrema, !extrema_.empty());
+        add(TableKind::minima, options_.minima);
+        add(TableKind::derivatives, !asked.derivatives.empty());
+        add(TableKind::summary, true);
+        if (asked.dense) {
+            motion.periods = simulation.system().periods()(plan.parameters);
+            observers.push_back(motion.steps = std::make_shared<KeptSteps>());
+        }
+        const Trajectory trajectory = moved(asked, plan, watch, std::move(observers), &motion);
         for (const auto& table : motion.tables)
-            observers.push_back(table.second);
-        if (asked.length.at)
-            observers.push_back(motion.given = std::make_shared<GivenTimes>(*asked.length.at, motion.periods));
-        if (asked.length.dense)
-            observers.push_back(motion.steps = std::make_shared<StepRecorder>());
-        const Trajectory trajectory = moved(simulation, asked, watch, observers, &motion);
-        for (const auto& table : motion.tables)
-            table.second->finish(trajectory);
+            table->finish(trajectory);
+        motion.is_interrupted = watch.has_raised();
         motion.outcome = trajectory.outcome();
         motion.state.assign(trajectory.state().begin(), trajectory.state().end());
         motion.mode = model_.modes[trajectory.mode()].name;
@@ -345,65 +525,70 @@ private:
     }
 
     Model model_;
+    std::vector<double> parameters_, initial_; ///< initial_ is found when it is needed first
     std::vector<NamedValue> quantities_, extrema_;
     SimulationOptions options_;
     std::vector<Probe> probes_;
     std::size_t first_extremum_ = 0;
-    std::optional<Simulation> simulation_, counting_;
-    std::string counted_;
+    std::optional<std::pair<RunLengthRequest, RunLength>> length_; ///< the last one, from the initial state
+    std::shared_ptr<JetPool> pool_, counting_;
+    std::size_t counted_state_ = 0;
+    double counted_value_ = 0;
 };
 
-py::dict object_of(Motion motion) {
-    py::dict tables, result;
-    for (const auto& [name, table] : motion.tables)
-        tables[name.c_str()] = columns_of(table->table());
-    result["tables"] = tables;
-    result["at"] = py::none();
-    if (motion.given)
-        result["at"] = array_of(std::move(motion.given->states()), {static_cast<py::ssize_t>(motion.given->taken()),
-                                                                    static_cast<py::ssize_t>(motion.periods.size())});
-    result["dense"] = py::none();
-    if (motion.steps)
-        result["dense"] = py::cast(DenseSteps(motion.steps, motion.periods));
-    result["ending"] = motion.is_full() && motion.outcome.ending == Ending::stopped
-                           ? std::string("table-full")
-                           : std::string(name_of(motion.outcome.ending));
-    result["regular"] = is_regular(motion.outcome.ending);
-    result["detail"] = motion.outcome.detail;
-    result["time"] = motion.outcome.time;
-    result["state"] = array_of(std::move(motion.state));
-    result["mode"] = motion.mode;
-    result["steps"] = motion.steps_made;
-    return result;
-}
-
-/// Keyword arguments by which a motion's length is given, the same for several functions.
-MotionLength length_from(const py::dict& words) {
-    MotionLength length;
+/// Keyword arguments by which a motion is asked for, the same for several functions.
+MotionRequest request_from(const py::dict& words) {
+    MotionRequest asked;
+    std::size_t known = 0;
     const auto read = [&](const char* name, auto& value) {
-        if (words.contains(name))
-            value = words[name].cast<std::remove_reference_t<decltype(value)>>();
+        PyObject* const item = PyDict_GetItemString(words.ptr(), name);
+        if (!item)
+            return;
+        ++known;
+        try {
+            value = py::reinterpret_borrow<py::object>(item).cast<std::remove_reference_t<decltype(value)>>();
+        } catch (const py::cast_error&) {
+            throw py::type_error(std::string(name) + " is " + py::repr(item).cast<std::string>());
+        }
     };
-    read("time", length.time);
-    read("after", length.after);
-    read("periods", length.periods);
-    read("skip", length.skip);
-    read("contacts", length.contacts);
-    read("phase", length.phase);
-    read("samples", length.samples);
-    read("every", length.every);
-    read("at", length.at);
-    read("derivatives", length.derivatives);
-    read("dense", length.dense);
-    if (length.at && !length.at->empty() && !length.time && !length.periods && !length.contacts)
-        length.time = length.at->back();
-    return length;
+    read("time", asked.length.time);
+    read("after", asked.length.after);
+    read("periods", asked.length.periods);
+    read("skip", asked.length.skip);
+    read("contacts", asked.length.contacts);
+    read("phase", asked.length.phase);
+    read("samples", asked.samples);
+    read("every", asked.every);
+    read("at", asked.at);
+    read("derivatives", asked.derivatives);
+    read("events", asked.events);
+    read("dense", asked.dense);
+    read("state", asked.state);
+    read("mode", asked.mode);
+    read("set", asked.set);
+    if (known != words.size())
+        throw py::type_error("a motion has no such argument");
+    if (asked.at && !asked.at->empty() && !asked.length.time && !asked.length.periods && !asked.length.contacts)
+        asked.length.time = asked.at->back();
+    return asked;
 }
 
 } // namespace
 
 void bind_motions(py::module_& module) {
-    py::class_<DenseSteps>(module, "DenseSteps").def("at", &DenseSteps::at);
+    stop_work_at_exit();
+    py::class_<DenseSteps>(module, "DenseSteps").def("at", &DenseSteps::at, py::arg("times"));
+    py::class_<Motion>(module, "Motion")
+        .def("table", &Motion::table, py::arg("name"))
+        .def("dense", &Motion::dense)
+        .def_property_readonly("ending", &Motion::ending)
+        .def_property_readonly("regular", &Motion::is_regular)
+        .def_property_readonly("detail", [](const Motion& self) { return self.outcome.detail; })
+        .def_property_readonly("time", [](const Motion& self) { return self.outcome.time; })
+        .def_property_readonly("state", [](const Motion& self) { return self.state; })
+        .def_readonly("mode", &Motion::mode)
+        .def_readonly("steps", &Motion::steps_made)
+        .def_readonly("raised", &Motion::raised);
     py::class_<HeldSimulation>(module, "Simulation")
         .def(py::init([](HeldModel& model, const std::vector<std::string>& sections,
                          const std::vector<std::string>& extrema, const std::vector<std::string>& quantities,
@@ -418,18 +603,22 @@ void bind_motions(py::module_& module) {
              py::arg("contacts_at_once"), py::arg("touch"), py::arg("minima"))
         .def(
             "run",
-            [](HeldSimulation& self, const py::dict& words, const std::optional<std::vector<double>>& state,
-               const std::optional<std::string>& mode,
-               const py::object& told) { return object_of(self.run(length_from(words), state, mode, told)); },
-            py::arg("length"), py::arg("state"), py::arg("mode"), py::arg("told"))
+            [](HeldSimulation& self, const py::dict& words, const py::object& told) {
+                return self.run(request_from(words), told);
+            },
+            py::arg("words"), py::arg("told"))
         .def(
             "figure",
-            [](HeldSimulation& self, const py::dict& words, const std::optional<std::vector<double>>& state,
-               const std::optional<std::string>& mode, const std::vector<std::string>& histories,
+            [](HeldSimulation& self, const py::dict& words, const std::vector<std::string>& histories,
                const std::vector<std::pair<std::string, std::string>>& portraits) {
-                return self.figure(length_from(words), state, mode, histories, portraits);
+                return self.figure(request_from(words), histories, portraits);
             },
-            py::arg("length"), py::arg("state"), py::arg("mode"), py::arg("histories"), py::arg("portraits"));
+            py::arg("words"), py::arg("histories"), py::arg("portraits"))
+        .def(
+            "value_of",
+            [](const HeldSimulation& self, const std::string& text, const NamedNumbers& set,
+               const std::string& argument) { return self.value_of(text, set, argument.c_str()); },
+            py::arg("text"), py::arg("set"), py::arg("argument"));
 }
 
 } // namespace graze::python

@@ -2,10 +2,13 @@
 #include "graze/results/result_table.hpp"
 #include "graze/results/stored_orbit.hpp"
 #include "graze/results/stored_run.hpp"
-#include "graze/results/table_text.hpp"
+#include "graze/study/further_runs.hpp"
+#include "graze/study/run_summary.hpp"
 #include "python/tables.hpp"
 
+#include <cmath>
 #include <complex>
+#include <limits>
 
 namespace graze::python {
 
@@ -74,6 +77,10 @@ py::dict object_of(const RunRecord& run, const OrbitRecord& record) {
     std::vector<double> starts;
     for (const std::vector<double>& start : solution.orbit.starts)
         starts.insert(starts.end(), start.begin(), start.end());
+    std::vector<std::size_t> modes;
+    for (const auto& segment : solution.orbit.signature)
+        modes.push_back(segment.mode);
+    object["modes"] = modes;
     const auto segments = static_cast<py::ssize_t>(solution.orbit.starts.size());
     object["starts"] = array_of(
         starts, {segments, segments == 0 ? 0 : static_cast<py::ssize_t>(solution.orbit.starts.front().size())});
@@ -114,19 +121,34 @@ py::list motion_along(const ResultFile& file, const std::string& run, const std:
     return list;
 }
 
-py::list estimates_of(const ResultFile& file, const std::string& run) {
-    py::list list;
-    for (const EstimateRecord& one : file.estimates(run).numbers) {
-        py::dict object;
-        object["name"] = one.name;
-        object["unit"] = one.unit;
-        object["value"] = one.estimate.value;
-        object["error"] = one.estimate.error;
-        object["freedom"] = one.estimate.freedom;
-        object["note"] = one.note;
-        list.append(object);
+/// The covariance matrix of the estimates of a run: not a number where one is not known.
+py::array_t<double> covariance_of(const ResultFile& file, const std::string& run) {
+    EstimateRecords found = file.estimates(run);
+    const std::size_t count = found.numbers.size();
+    if (found.covariance.empty()) {
+        found.covariance.assign(count * count, std::numeric_limits<double>::quiet_NaN());
+        for (std::size_t i = 0; i < count; ++i)
+            if (const Estimate& one = found.numbers[i].estimate; one.freedom > 0)
+                found.covariance[i * count + i] = one.error * one.error;
     }
-    return list;
+    const auto side = static_cast<py::ssize_t>(count);
+    return array_of(std::move(found.covariance), {side, side});
+}
+
+/// What is told of a run when it has ended, from its results.
+py::dict summary_of_run(const ResultFile& file, const std::string& run) {
+    const auto record = file.find_run(run);
+    if (!record)
+        throw InputError("there is no run '" + run + "'", "");
+    RunReport report;
+    report.name = run;
+    report.kind = record->kind;
+    const RunSummary summary = summary_of(report, file);
+    py::dict object;
+    object["labels"] = summary.labels;
+    object["ends"] = summary.ends;
+    object["escapes"] = summary.escapes;
+    return object;
 }
 
 } // namespace
@@ -146,7 +168,30 @@ void bind_results(py::module_& module) {
                      list.append(object_of(run));
                  return list;
              })
-        .def("remove_run", &ResultFile::remove_run)
+        .def(
+            "run",
+            [](const ResultFile& self, const std::string& name) {
+                const auto run = self.find_run(name);
+                return run ? py::object(object_of(*run)) : py::none();
+            },
+            py::arg("name"))
+        .def("count", &ResultFile::point_count, py::arg("run"))
+        .def("names",
+             [](const ResultFile& self) {
+                 std::vector<std::string> names;
+                 for (const RunRecord& run : self.runs())
+                     names.push_back(run.name);
+                 return names;
+             })
+        .def("summary", &summary_of_run, py::arg("run"))
+        .def_property_readonly("format", &ResultFile::format)
+        .def_property_readonly("missing", &ResultFile::missing)
+        .def(
+            "take_runs",
+            [](ResultFile& self, const ResultFile& from, const std::vector<std::string>& names) {
+                return copy_runs(from, self, names);
+            },
+            py::arg("source"), py::arg("names"), py::call_guard<py::gil_scoped_release>())
         .def("flush", &ResultFile::flush)
         .def("copy_to", &ResultFile::copy_to, py::call_guard<py::gil_scoped_release>())
         .def(
@@ -183,13 +228,15 @@ void bind_results(py::module_& module) {
         .def(
             "orbit",
             [](const ResultFile& self, const std::string& run, const std::string& point) {
-                return object_of(*self.find_run(run), orbit_named(self, run, point));
+                const OrbitRecord record = orbit_named(self, run, point); // throws where there is no such run
+                return object_of(*self.find_run(run), record);
             },
             py::arg("run"), py::arg("point"))
         .def("motion", &motion_along, py::arg("run"), py::arg("point"), py::arg("samples"))
-        .def("estimates", &estimates_of, py::arg("run"))
-        .def("covariance",
-             [](const ResultFile& self, const std::string& run) { return array_of(self.estimates(run).covariance); });
+        .def("covariance", &covariance_of, py::arg("run"));
+    // Connections to SQLite must not be closed by a forked process.
+    module.def(
+        "never_destroy", [](const py::object& object) { object.inc_ref(); }, py::arg("object"));
     module.def("result_table_names", &result_table_names);
 }
 

@@ -1,4 +1,6 @@
 #include "graze/picture/result_picture.hpp"
+#include "graze/results/table_text.hpp"
+#include "graze/study/further_runs.hpp"
 #include "graze/study/run_summary.hpp"
 #include "graze/study/runner.hpp"
 #include "graze/study/stored_study.hpp"
@@ -7,8 +9,10 @@
 #include "graze/study/study_table.hpp"
 #include "python/attended.hpp"
 #include "python/figures.hpp"
+#include "python/parts.hpp"
 #include "python/tables.hpp"
 
+#include <algorithm>
 #include <mutex>
 
 namespace graze::python {
@@ -73,7 +77,7 @@ private:
 };
 
 py::list carried_out(const Study& study, ResultFile& file, int threads, const std::vector<std::string>& only,
-                     const py::object& told) {
+                     const py::object& told, const std::shared_ptr<PartExchange>& parts) {
     ProgressNote progress;
     std::vector<RunReport> reports;
     attended(
@@ -86,7 +90,10 @@ py::list carried_out(const Study& study, ResultFile& file, int threads, const st
             options.orbit = [&](const std::string& run, const OrbitRecord& record) {
                 progress.note_orbit(run, record.point.parameter, record.number);
             };
-            reports = run_study(study, file, options);
+            PointsElsewhere elsewhere;
+            if (parts)
+                elsewhere = [&parts](const auto&... given) { return parts->await(given...); };
+            reports = run_study(study, file, options, elsewhere);
         },
         told.is_none() ? std::function<void()>() : [&] { told(progress.object()); });
     py::list list;
@@ -122,10 +129,39 @@ py::list keys_of(const std::string& kind) {
         object["meaning"] = key.meaning;
         object["least"] = key.least;
         object["most"] = key.most;
+        object["includes_least"] = key.includes_least;
         object["words"] = key.words;
         list.append(object);
     }
     return list;
+}
+
+/// Refuses results of other values of parameters: one file holds results of one set only.
+void require_same_values(const Study& study, const ResultFile& file) {
+    auto stored = stored_set(file);
+    ParameterValues asked = study.set;
+    if (!stored)
+        return;
+    std::ranges::sort(*stored);
+    std::ranges::sort(asked);
+    const auto words = [](const ParameterValues& set) {
+        std::string text;
+        for (const auto& [name, value] : set)
+            text += (text.empty() ? "" : ", ") + name + " = " + py::str(py::float_(value)).cast<std::string>();
+        return text.empty() ? std::string("the study's own values") : text;
+    };
+    if (*stored != asked)
+        throw InputError(Place{file.path(), 0, 0},
+                         "the results there were made with " + words(*stored) + ", and those asked for are of " +
+                             words(asked),
+                         "choose another folder: output=\"FOLDER\"");
+}
+
+const StudyTable& table_named(const Study& study, const std::string& name) {
+    for (const StudyTable& table : study.tables)
+        if (table.name == name)
+            return table;
+    throw InputError("the study has no table '" + name + "'", "");
 }
 
 py::object figure_of(const Study& study, const ResultFile& file, const std::string& name) {
@@ -170,6 +206,23 @@ void bind_studies(py::module_& module) {
         .def_static(
             "stored", [](const ResultFile& file) { return std::make_shared<Study>(stored_study(file)); },
             py::arg("file"))
+        .def(
+            "further",
+            [](const Study& self, const std::string& text, const std::string& file, const HeldModels& models) {
+                return std::make_shared<Study>(parse_further_runs(text, file, self, named(models)));
+            },
+            py::arg("text"), py::arg("file"), py::arg("models"))
+        .def(
+            "kept_in",
+            [](const Study& self, const ResultFile& file) {
+                auto kept = std::make_shared<Study>(self);
+                kept->file = file.path(); // so that carrying it out does not store it each time
+                return kept;
+            },
+            py::arg("file"))
+        .def(
+            "store", [](const Study& self, ResultFile& file) { store_study(self, file); }, py::arg("file"))
+        .def("require_same_values", &require_same_values, py::arg("file"))
         .def_readonly("name", &Study::name)
         .def_readonly("text", &Study::text)
         .def_readonly("source", &Study::source)
@@ -187,7 +240,27 @@ void bind_studies(py::module_& module) {
                                        names.push_back(picture.name);
                                    return names;
                                })
-        .def("run", &carried_out, py::arg("file"), py::kw_only(), py::arg("threads"), py::arg("only"), py::arg("told"))
+        .def_property_readonly("tables",
+                               [](const Study& self) {
+                                   std::vector<std::string> names;
+                                   for (const StudyTable& table : self.tables)
+                                       names.push_back(table.name);
+                                   return names;
+                               })
+        .def(
+            "table",
+            [](const Study& self, const ResultFile& file, const std::string& name) {
+                return columns_of(make_table(table_named(self, name), file));
+            },
+            py::arg("file"), py::arg("name"))
+        .def(
+            "table_text",
+            [](const Study& self, const ResultFile& file, const std::string& name) {
+                return csv_text(make_table(table_named(self, name), file));
+            },
+            py::arg("file"), py::arg("name"))
+        .def("run", &carried_out, py::arg("file"), py::kw_only(), py::arg("threads"), py::arg("only"), py::arg("told"),
+             py::arg("parts") = std::shared_ptr<PartExchange>())
         .def("figure", &figure_of, py::arg("file"), py::arg("name"));
     module.def("picture", &picture_of, py::arg("file"), py::arg("text"), py::arg("named"));
     module.def("study_keys", &keys_of);

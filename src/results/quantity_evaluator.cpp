@@ -1,5 +1,7 @@
 #include "graze/results/quantity_evaluator.hpp"
 
+#include "graze/base/require.hpp"
+
 #include <algorithm>
 
 namespace graze {
@@ -8,6 +10,8 @@ QuantityEvaluator::QuantityEvaluator(const Model& model, const std::vector<Named
     : states_(model.states.size()), inputs_(states_), values_(quantities.size()) {
     for (const double value : model.parameter_values())
         inputs_.push_back(value);
+    if (quantities.empty())
+        return;
     std::vector<Expression> outputs;
     for (const NamedValue& quantity : quantities)
         outputs.push_back(quantity.value);
@@ -15,7 +19,14 @@ QuantityEvaluator::QuantityEvaluator(const Model& model, const std::vector<Named
     work_.resize(function_.workspace());
 }
 
+void QuantityEvaluator::set_parameters(std::span<const double> values) {
+    require_size(values.size(), inputs_.size() - states_, "parameters");
+    std::ranges::copy(values, inputs_.begin() + static_cast<std::ptrdiff_t>(states_));
+}
+
 std::span<const double> QuantityEvaluator::operator()(std::span<const double> state) {
+    if (values_.empty())
+        return {};
     std::copy_n(state.begin(), states_, inputs_.begin());
     function_.evaluate(inputs_, values_, work_);
     return values_;

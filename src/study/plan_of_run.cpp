@@ -1,3 +1,4 @@
+#include "study/plan_of_run.hpp"
 #include "base/concatenated.hpp"
 #include "base/random_number.hpp"
 #include "graze/base/require.hpp"
@@ -25,16 +26,26 @@ std::size_t sweep_length(const StudyRun& run) {
     return run.kind == RunKind::sweep ? run.motion().axes.front().values.size() : 1;
 }
 
-std::size_t chain_length_of(const StudyRun& run) {
+/// Number of points along the first axis of a sweep, in both directions.
+std::size_t row_length(const StudyRun& run) {
     return sweep_length(run) * (run.kind == RunKind::sweep && run.motion().direction == SweepDirection::both ? 2 : 1);
 }
 
-/// Number of combinations of values of the axes, each of which makes a chain.
+/// Number of combinations of values of the axes, each of which makes a row.
 std::size_t combinations(const StudyRun& run) {
     std::size_t count = 1;
     for (std::size_t a = run.kind == RunKind::sweep ? 1 : 0; a < run.motion().axes.size(); ++a)
         count *= std::max<std::size_t>(run.motion().axes[a].values.size(), 1);
     return count;
+}
+
+std::size_t rows_of(const StudyRun& run) {
+    return combinations(run) * std::max<std::size_t>(run.motion().draws, 1);
+}
+
+/// Whether each point begins where the one before it in its row ended.
+bool carries_states(const StudyRun& run) {
+    return run.kind == RunKind::sweep && run.motion().carry;
 }
 
 /// The initial states that are functions of states and parameters.
@@ -59,15 +70,15 @@ std::size_t direction_of(const StudyRun& run, std::size_t point) {
     require_index(point, points_of(run), "point");
     if (run.kind != RunKind::sweep)
         return 0;
-    const bool second = point % chain_length_of(run) >= sweep_length(run);
+    const bool second = point % row_length(run) >= sweep_length(run);
     return run.motion().direction == SweepDirection::both ? (second ? 1 : 0) : 0;
 }
 
 std::vector<double> coordinates_of(const StudyRun& run, std::size_t point) {
     require_index(point, points_of(run), "point");
-    const std::size_t length = chain_length_of(run), chain = point / length, index = point % length;
+    const std::size_t index = point % row_length(run);
     std::vector<double> coordinates(run.motion().axes.size());
-    std::size_t rest = chain % combinations(run);
+    std::size_t rest = row_of(run, point) % combinations(run);
     for (std::size_t a = run.motion().axes.size(); a-- > 0;) {
         const Variation& axis = run.motion().axes[a];
         if (axis.values.empty()) {
@@ -84,25 +95,29 @@ std::vector<double> coordinates_of(const StudyRun& run, std::size_t point) {
     return coordinates;
 }
 
+std::size_t row_of(const StudyRun& run, std::size_t point) {
+    return point / row_length(run);
+}
+
 std::size_t chains_of(const StudyRun& run) {
     if (!run.has_motions())
         return 1;
-    return combinations(run) * std::max<std::size_t>(run.motion().draws, 1);
+    return carries_states(run) ? rows_of(run) : points_of(run);
 }
 
 std::size_t points_of(const StudyRun& run) {
     if (run.kind == RunKind::record)
         return run.record().records();
-    return chains_of(run) * chain_length_of(run);
+    return run.has_motions() ? rows_of(run) * row_length(run) : 1;
 }
 
 Plan plan_of(const StudyRun& given, const System& system, const PointRecord* start) {
     const auto kept = std::make_shared<const StudyRun>(given);
     const StudyRun& run = *kept;
     Plan plan;
-    plan.chain_length = chain_length_of(run);
+    plan.carry = carries_states(run);
+    plan.chain_length = plan.carry ? row_length(run) : 1;
     plan.chains = chains_of(run);
-    plan.carry = run.kind == RunKind::sweep && run.motion().carry;
     std::vector<double> state = start ? start->result.state : std::vector<double>();
     const std::size_t mode = start ? start->result.mode : run.model.initial_mode;
     plan.start = [kept, &run, state, mode, system, following = following_states(run)](std::size_t point) {

@@ -31,7 +31,7 @@ double MotionRequest::points() const {
 }
 
 double MotionRequest::chains(RunKind kind) const {
-    const bool swept = kind == RunKind::sweep && !axes.empty() && !axes.front().values.empty();
+    const bool swept = kind == RunKind::sweep && carry && !axes.empty() && !axes.front().values.empty();
     return swept ? points() / static_cast<double>(axes.front().values.size()) : points();
 }
 

@@ -3,10 +3,12 @@
 #include "base/turns.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/study/escape_rates.hpp"
+#include "graze/study/run_part.hpp"
 #include "graze/study/run_times.hpp"
 #include "graze/study/stored_study.hpp"
 #include "study/branch_run.hpp"
 #include "study/measured_run.hpp"
+#include "study/plan_of_run.hpp"
 #include "study/run_record.hpp"
 #include "study/run_schedule.hpp"
 #include "study/shared_file.hpp"
@@ -24,24 +26,16 @@ namespace graze {
 
 namespace {
 
-std::unique_ptr<SearchFactory> searches_of(const StudyRun& run, const System& system) {
-    const MotionRequest& motion = run.motion();
-    AttractorOptions attractor = motion.attractor;
-    attractor.stay_in_transients = run.kind == RunKind::sweep && motion.carry;
-    return seeks_attractors(run.kind)
-               ? attractor_searches(system, attractor, motion.samplings, run.values, motion.simulation)
-               : transient_searches(system, motion.transient, motion.samplings, run.values, motion.simulation);
-}
-
 /// The points of each chain that the file has.
-std::vector<ChainProgress> progress_of(const ResultFile& file, const StudyRun& run, const Plan& plan,
-                                       std::size_t& done) {
-    std::vector<ChainProgress> progress(plan.chains);
-    for (const PointRecord& point : file.last_points(run.name, plan.chain_length)) {
-        const std::size_t chain = point.number / plan.chain_length;
+std::vector<ChainProgress> progress_of(const ResultFile& file, const PartedRun& parted, std::size_t& done) {
+    const StudyRun& run = parted.run();
+    const std::size_t length = parted.chain_length();
+    std::vector<ChainProgress> progress(parted.chains());
+    for (const PointRecord& point : file.last_points(run.name, length)) {
+        const std::size_t chain = point.number / length;
         if (chain >= progress.size() || point.result.mode >= run.model.modes.size())
-            continue; // the point does not belong to this plan: its chain is computed anew
-        progress[chain] = {point.number % plan.chain_length + 1, can_be_carried_on(point.result), point.result.state,
+            continue; // the point does not belong to this run: its chain is computed anew
+        progress[chain] = {point.number % length + 1, can_be_carried_on(point.result), point.result.state,
                            point.result.mode};
         done += progress[chain].done;
     }
@@ -88,8 +82,8 @@ bool is_done(const RunRecord& record, ResultFile& file) {
 /// that holds the file.
 class Runner {
 public:
-    Runner(const Study& study, ResultFile& file, const RunnerOptions& options)
-        : study_(&study), path_(file.path()), file_(file), options_(options) {
+    Runner(const Study& study, ResultFile& file, const RunnerOptions& options, const PointsElsewhere& elsewhere)
+        : study_(&study), path_(file.path()), file_(file), options_(options), elsewhere_(elsewhere) {
         const auto interrupted = turns_.asking(options.interrupted);
         options_.interrupted = [this, interrupted] { return broken_off_ || (interrupted && interrupted()); };
         options_.progress = turns_.taking(options.progress);
@@ -321,27 +315,26 @@ private:
     }
 
     void compute_points(const StudyRun& run, const PointRecord* start, Work& work) {
-        const System system(run.model);
-        const Plan plan = plan_of(run, system, start);
+        const PartedRun parted(run, start);
         const auto known = file_.with([&](const ResultFile& file) {
-            const auto progress = progress_of(file, run, plan, work.counted);
+            const auto progress = progress_of(file, parted, work.counted);
             progress_.study_done += work.counted;
             return progress;
         });
-        ExecutionOptions execution;
-        execution.jobs = work.threads;
-        execution.interrupted = options_.interrupted;
-        const auto searches = searches_of(run, system);
-        const auto keep = [&](std::size_t point, const PointStart&, PointResult& result) {
+        const PointSink keep = [&](std::size_t point, PointResult& result) {
             file_.with([&](ResultFile& file) {
                 work.report.returns += result.periods_run;
-                file.add_point(run.name, {point, point / plan.chain_length, direction_of(run, point),
+                file.add_point(run.name, {point, row_of(run, point), direction_of(run, point),
                                           coordinates_of(run, point), std::move(result)});
                 ++work.report.computed;
                 tell(run, work);
             });
         };
-        const bool complete = execute(plan, *searches, known, execution, keep);
+        ExecutionOptions execution;
+        execution.jobs = work.threads;
+        execution.interrupted = options_.interrupted;
+        const bool complete = elsewhere_ ? elsewhere_(parted, known, options_.interrupted, keep)
+                                         : parted.compute({0, parted.chains()}, known, execution, keep);
         file_.with([&](ResultFile& file) {
             file.flush();
             if (!complete)
@@ -369,6 +362,7 @@ private:
     SharedFile file_;
     Turns turns_;
     RunnerOptions options_;
+    PointsElsewhere elsewhere_;         ///< none: points are computed here
     std::vector<const StudyRun*> runs_; ///< the runs to be carried out, in the order of the study
     std::set<std::string> failed_;
     std::map<std::string, std::string> fingerprints_;
@@ -387,8 +381,9 @@ void name_points(const Study& study, ResultFile& file) {
 
 } // namespace
 
-std::vector<RunReport> run_study(const Study& study, ResultFile& file, const RunnerOptions& options) {
-    Runner runner(study, file, options);
+std::vector<RunReport> run_study(const Study& study, ResultFile& file, const RunnerOptions& options,
+                                 const PointsElsewhere& elsewhere) {
+    Runner runner(study, file, options, elsewhere);
     if (study.file != file.path()) // otherwise the study was read from this file
         store_study(study, file);
     name_points(study, file);
@@ -396,6 +391,10 @@ std::vector<RunReport> run_study(const Study& study, ResultFile& file, const Run
     // The order of the study, not that in which runs have begun.
     file.order_runs(names_of(study.runs));
     return reports;
+}
+
+std::vector<RunReport> run_study(const Study& study, ResultFile& file, const RunnerOptions& options) {
+    return run_study(study, file, options, {});
 }
 
 } // namespace graze

@@ -1,5 +1,6 @@
 #include "graze/study/stored_ladder.hpp"
 
+#include "base/special_numbers.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/with_place.hpp"
 #include "graze/study/stored_study.hpp"
@@ -61,6 +62,25 @@ StoredLadder stored_ladder(const ResultFile& file, const LadderRequest& request)
     else
         result.limit = with_place(request.point_place, [&] { return result.ladder.limit(); });
     return result;
+}
+
+Table ladder_table(const StoredLadder& found) {
+    const Model& model = found.first.run.model;
+    const std::string parameter = model.independent_parameters()[found.parameter.place()];
+    const std::string unit = model.parameter_unit(parameter);
+    Table table({{"grazing", ""}, {parameter, unit}, {"lambda", ""}, {"flip", unit}, {"fold", unit}});
+    const std::vector<SpecialPoint>& grazings = found.ladder.grazings();
+    const auto& leaving = found.leaving;
+    for (std::size_t k = 0; k < grazings.size(); ++k) {
+        table.add(k + 1, grazings[k].parameter);
+        const bool has_ratio = k + 2 < grazings.size();
+        table.add(has_ratio ? (grazings[k + 2].parameter - grazings[k + 1].parameter) /
+                                  (grazings[k + 1].parameter - grazings[k].parameter)
+                            : not_a_number,
+                  k < leaving.size() ? leaving[k].flip.value_or(not_a_number) : not_a_number,
+                  k < leaving.size() ? leaving[k].fold.value_or(not_a_number) : not_a_number);
+    }
+    return table;
 }
 
 } // namespace graze

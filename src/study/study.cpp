@@ -3,6 +3,7 @@
 #include "graze/base/file_name.hpp"
 #include "graze/base/printable.hpp"
 #include "graze/base/text_file.hpp"
+#include "graze/study/further_runs.hpp"
 #include "results/schema.hpp"
 #include "study/start_point.hpp"
 #include "study/study_reader.hpp"
@@ -137,6 +138,11 @@ public:
         study_.set = set;
         defaults_.given = set;
     }
+    /// Lets the runs that are read go on from those of another study.
+    void go_on_from(const Study& earlier) {
+        study_.runs = earlier.runs;
+        earlier_ = names_ = names_of(earlier.runs);
+    }
 
     Study read(const toml::table& root) {
         defaults_.whole = mistakes_.attempt([&] { read_head(root); });
@@ -198,9 +204,14 @@ private:
 
     void read_runs() {
         for (const TomlEntry& entry : run_entries_)
-            names_.push_back(entry.name);
+            mistakes_.attempt([&] {
+                if (std::ranges::find(earlier_, entry.name) != earlier_.end())
+                    throw InputError(entry.place, fmt::format("there is a run '{}' already", entry.name),
+                                     "choose another name");
+                names_.push_back(entry.name);
+            });
         mistakes_.attempt([&] {
-            if (names_.empty())
+            if (run_entries_.empty())
                 throw InputError(runs_->place, "the study has no runs", "add a table [runs.NAME]");
         });
         for (const TomlEntry& entry : run_entries_)
@@ -221,7 +232,8 @@ private:
         for (const TomlEntry& entry : run_entries_)
             with_key(mistakes_, keys_[entry.name], "start", [&](const TomlEntry& start) { check_parent(start); });
         for (const StudyRun& run : study_.runs)
-            if (const StudyRun* parent = run.start ? study_.find_run(run.start->run) : nullptr)
+            if (const StudyRun* parent =
+                    run.start && keys_.contains(run.name) ? study_.find_run(run.start->run) : nullptr)
                 mistakes_.attempt([&] { check_start(reader_, run, *parent, keys_[run.name]); });
     }
 
@@ -281,6 +293,7 @@ private:
     std::optional<TomlEntry> runs_, pictures_, tables_;
     std::vector<TomlEntry> run_entries_;
     std::vector<std::string> names_, picture_names_; ///< including those of entries that could not be read
+    std::vector<std::string> earlier_;               ///< names of the runs from which others go on
     std::map<std::string, RunKeys> keys_;
     std::size_t values_ = 0; ///< number of values of all axes
 };
@@ -291,6 +304,14 @@ Study parse_study(std::string_view text, const std::string& file, const Paramete
                   const NamedModels& models) {
     const toml::table root = parse_toml(text, file, "docs/study-format.md shows how a study is written");
     return WholeStudy(file, set, models).read(root);
+}
+
+Study parse_further_runs(std::string_view text, const std::string& file, const Study& study,
+                         const NamedModels& models) {
+    const toml::table root = parse_toml(text, file, "docs/study-format.md shows how a study is written");
+    WholeStudy whole(file, {}, models);
+    whole.go_on_from(study);
+    return whole.read(root);
 }
 
 StudyPicture parse_picture(std::string_view text, const std::string& name, const std::string& file,

@@ -93,11 +93,14 @@ private:
         });
     }
 
-    /// Starts the next motion in a slot. @return false if none is left
-    bool begin(Slot& slot) {
+    bool is_stopped() {
         if (interrupted_ && interrupted_())
             team_.stop();
-        if (team_.is_stopped() || (slot.motion = next_++) >= settings_.motions)
+        return team_.is_stopped();
+    }
+    /// Starts the next motion in a slot. @return false if none is left
+    bool begin(Slot& slot) {
+        if (is_stopped() || (slot.motion = next_++) >= settings_.motions)
             return false;
         slot.cycle = 0;
         slot.noise = Noise(settings_, slot.motion);
@@ -123,6 +126,8 @@ private:
             motion = {Fate::fails, 0, outcome.ending};
         } else if (++slot.cycle == settings_.cycles) {
             motion.fate = Fate::rests;
+        } else if (is_stopped()) {
+            return false;
         } else {
             slot.noise.step();
             const std::span<const double> state = slot.trajectory.state();
@@ -147,15 +152,20 @@ private:
     ThreadTeam team_;
 };
 
-/// Counts the motions whose parameter is beyond the loss point at any time, whether they trip or not.
-std::size_t count_beyond(const TripOrigin& origin, double level, const NoiseSettings& settings) {
-    std::size_t count = 0;
+/// Counts the motions whose parameter is beyond the loss point at any time, whether they trip or not; none when
+/// interrupted.
+std::optional<std::size_t> count_beyond(const TripOrigin& origin, double level, const NoiseSettings& settings) {
+    constexpr std::size_t cycles_between_questions = 10'000;
+    std::size_t count = 0, done = 0;
     const double margin = origin.point - origin.value;
     for (std::size_t motion = 0; motion < settings.motions; ++motion) {
         Noise noise(settings, motion);
         bool beyond = false;
-        for (std::size_t cycle = 0; cycle < settings.cycles && !beyond; ++cycle, noise.step())
+        for (std::size_t cycle = 0; cycle < settings.cycles && !beyond; ++cycle, noise.step()) {
             beyond = level * noise.value() * std::copysign(1.0, margin) > std::abs(margin);
+            if (++done % cycles_between_questions == 0 && settings.interrupted && settings.interrupted())
+                return std::nullopt;
+        }
         count += beyond ? 1 : 0;
     }
     return count;
@@ -206,7 +216,11 @@ NoisyTrips noisy_trips(const System& system, const TripOrigin& origin, double le
     }
     result.failures.assign(failures.begin(), failures.end());
     result.trips = cycles.size();
-    result.beyond = count_beyond(origin, level, settings);
+    if (!result.interrupted) {
+        const std::optional<std::size_t> beyond = count_beyond(origin, level, settings);
+        result.beyond = beyond.value_or(0);
+        result.interrupted = !beyond;
+    }
     const std::size_t decided = result.motions - result.failed;
     if (decided > 0)
         result.probability = wilson_interval(result.trips, decided, settings.confidence);

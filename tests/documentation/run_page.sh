@@ -10,6 +10,7 @@
 #   ```toml file=NAME    written to NAME before the following blocks are run (any language but cpp)
 #   ```cpp file=PATH     the whole file PATH of the repository
 #   ```cpp part-of=PATH  consecutive lines of the file PATH of the repository (any language)
+#   ```python needs=WHAT, ```python not-run  left to tests/python/test_documentation.py
 # Blocks without further words are not tested.
 set -euo pipefail
 
@@ -130,6 +131,7 @@ while read -r line number language purpose <&3; do
             fail "$line" "the snippet is not the file $file"
         ran=$((ran + 1))
         ;;
+    "python needs="* | "python not-run") ;;
     *" file="*)
         file=${purpose#file=}
         [[ $file =~ ^[A-Za-z0-9_.-]+$ ]] || fail "$line" "a file's name must be plain: $file"

@@ -77,6 +77,34 @@ grep -q "^graze_DIR:.*=$root/usr/" "$work/project-build/CMakeCache.txt" || fail 
 cmake --build "$work/project-build"
 "$work/project-build/impacts"
 
+modules=("$build"/python/graze/_graze*.so)
+if [[ -f $build/CPackPythonConfig.cmake && -f ${modules[0]} ]]; then
+    step "the package of the Python module"
+    cpack --config "$build/CPackPythonConfig.cmake" -B "$work"
+    rm -rf "$work/_CPack_Packages"
+    module_packages=("$work"/python3-graze*.deb)
+    dpkg-deb --info "${module_packages[0]}"
+    depends=$(dpkg-deb --field "${module_packages[0]}" Depends)
+    [[ $depends == *"python3 ("* && $depends == *python3-numpy* && $depends == *libfmt* ]] || fail "it depends on $depends"
+    dpkg-deb --fsys-tarfile "${module_packages[0]}" | tar -tv >"$work/list"
+    ! grep -v ' root/root ' "$work/list" || fail "files belong to somebody else"
+    ! grep -v -E ' \./(usr/(lib/(python3/(dist-packages/(graze/.*)?)?)?)?)?$' "$work/list" ||
+        fail "there are files outside of the module's folder"
+    ! grep -E '__pycache__|\.c?pp$' "$work/list" || fail "there are left-over files"
+    for file in __init__.py py.typed _graze.pyi; do
+        grep -q " ./usr/lib/python3/dist-packages/graze/$file\$" "$work/list" || fail "$file is missing"
+    done
+    dpkg_there --install "${module_packages[0]}"
+    (cd "$work" && PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$root/usr/lib/python3/dist-packages /usr/bin/python3 -c "
+import graze
+assert graze.__file__.startswith('$root'), graze.__file__
+motion = graze.simulate(graze.load('bouncing-ball'), contacts=3)
+print(motion)
+assert len(motion.contacts) == 3")
+    dpkg_there --purge python3-graze
+    [[ ! -d $root/usr/lib/python3/dist-packages/graze ]] || fail "the module's folder was left"
+fi
+
 step "it is removed"
 dpkg_there --purge graze
 while read -r file; do

@@ -230,6 +230,18 @@ TEST(DisturbedTrip, NoiseIsTheSameOnAnyNumberOfThreads) {
     EXPECT_THROW(noisy_trips(System(one.model), one.origin, 1.5, one.end, settings), InputError);
 }
 
+TEST(DisturbedTrip, NoiseIsInterruptedWithinAMotion) {
+    const Relaxing one(0.3, 0, 1);
+    NoiseSettings settings;
+    settings.motions = 1;
+    settings.cycles = 100'000'000; // hours
+    int asked = 0;
+    settings.interrupted = [&] { return ++asked > 5; };
+    const NoisyTrips trips = noisy_trips(System(one.model), one.origin, 1e-9, one.end, settings);
+    EXPECT_TRUE(trips.interrupted);
+    EXPECT_EQ(trips.motions, 0U);
+}
+
 /// The switch of chapter 6 at its touch.
 struct Switch {
     explicit Switch(double omega) : model(load_model("mems-switch")) {

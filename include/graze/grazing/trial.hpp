@@ -72,8 +72,9 @@ struct TouchReport {
 
 /// @param map of the touch, with respect to the parameter; @param parameter that moves the orbit from the touch; none:
 ///        nothing is told of the motion beyond it
-/// @param verify whether the verdict is checked by simulation
+/// @param verify whether the verdict is checked by simulation; @param options of that
 /// @throws InputError where it is to be checked and no parameter is given
-TouchReport touch_report(const System& system, const CycleMap& map, std::optional<ParameterId> parameter, bool verify);
+TouchReport touch_report(const System& system, const CycleMap& map, std::optional<ParameterId> parameter, bool verify,
+                         const TrialOptions& options = {});
 
 } // namespace graze

@@ -38,6 +38,8 @@ public:
     };
 
     MotionRecorder(const Simulation& simulation, MotionPanelChoice contents);
+    /// To be called before a trajectory whose parameters are not those of the simulation's model.
+    void set_parameters(std::span<const double> values);
 
     void step(const Step& step) override;
     void contact(const Contact& contact) override;

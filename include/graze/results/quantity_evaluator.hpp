@@ -11,12 +11,14 @@
 
 namespace graze {
 
-/// Evaluates quantities at states, with the parameter values that the model has at construction.
+/// Evaluates quantities at states, at first with the parameter values that the model has at construction.
 class QuantityEvaluator {
 public:
     QuantityEvaluator(const Model& model, const std::vector<NamedValue>& quantities);
     /// Values of the quantities at a state; valid until the next call.
     std::span<const double> operator()(std::span<const double> state);
+    /// Other values of the independent parameters. @throws InputError for a wrong number of them
+    void set_parameters(std::span<const double> values);
 
 private:
     Function function_;
@@ -31,6 +33,8 @@ public:
     /// A list of columns followed by these. @param suffix appended to the name of each of these
     std::vector<Table::Column> after(std::vector<Table::Column> columns, const std::string& suffix = {}) const;
     void add(Table& table, std::span<const double> state);
+    /// See QuantityEvaluator.
+    void set_parameters(std::span<const double> values) { evaluate_.set_parameters(values); }
 
 private:
     std::vector<Table::Column> columns_;

@@ -2,6 +2,7 @@
 
 #include "graze/branch/ladder.hpp"
 #include "graze/results/stored_orbit.hpp"
+#include "graze/results/table.hpp"
 
 #include <cstddef>
 #include <functional>
@@ -38,5 +39,9 @@ struct StoredLadder {
 /// Climbs a ladder with the settings of the run that has its first grazing, as a run of kind ladder does.
 /// @throws InputError when there is no such point or parameter, and as Ladder does
 StoredLadder stored_ladder(const ResultFile& file, const LadderRequest& request);
+
+/// A row for each grazing: its number, the value of the parameter, the ratio `lambda` of successive distances, and the
+/// first flip and fold of the branch that leaves it.
+Table ladder_table(const StoredLadder& ladder);
 
 } // namespace graze

@@ -1,0 +1,205 @@
+"""Runs computed by executors: parts of them are given to the workers, whose points come back as bytes."""
+
+from __future__ import annotations
+
+import os
+import queue
+import time
+from collections import deque
+from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future
+from functools import lru_cache
+from typing import Deque, Dict, List, Optional, Tuple
+
+from . import _graze
+from ._errors import Error, InputError, WorkersLost
+
+WANTED = 0.5  # seconds that a part is to take
+FEWEST = 5  # near the end of a run, parts are smaller by this factor at most
+GROWTH = 8  # the next part is larger by this factor at most than those whose duration is known
+ATTEMPTS = 4  # at a part whose worker is lost
+
+
+@lru_cache(maxsize=4)
+def _run_of(text: bytes) -> _graze.PartedRun:
+    return _graze.PartedRun(text)
+
+
+def computed_part(text: bytes, part: bytes, attempt: int) -> Tuple[float, bytes]:
+    """What workers do: the seconds that it took, and the points of a part as bytes.
+
+    attempt: counts from 0; it makes a repeated task another one for executors that know a task by its arguments.
+    """
+    run = _run_of(text)
+    begun = time.perf_counter()
+    points = run.computed(part)
+    return time.perf_counter() - begun, points
+
+
+def number_of_workers(executor: Executor) -> int:
+    """How many tasks an executor does at once; the number of cores of this computer where it does not say."""
+    client = getattr(executor, "_client", None)  # of dask.distributed
+    try:
+        number = sum(client.nthreads().values()) if client is not None else getattr(executor, "_max_workers")
+    except Exception:
+        number = None
+    return number if isinstance(number, int) and number > 0 else os.cpu_count() or 1
+
+
+class _Part:
+    """Chains `first` to `last` - 1 of an open run."""
+
+    def __init__(self, run: _OpenRun, first: int, last: int, content: bytes):
+        self.run = run
+        self.first = first
+        self.last = last
+        self.content = content
+        self.attempt = 0
+
+
+class _OpenRun:
+    """A run that waits for its points. It is cut into parts as workers become free: the first ones are small, later
+    ones take about WANTED seconds, and the last ones less, so that all workers end together."""
+
+    def __init__(self, number: int, text: bytes, ranges: List[Tuple[int, int]]):
+        self.number = number
+        self.text = text
+        self.ranges = deque(ranges)
+        self.left = sum(last - first for first, last in ranges)  # chains that are in no part
+        self.open = self.left  # chains whose points have not come
+        self.seconds = 0.0
+        self.timed = 0  # chains that have taken so long
+        self.largest = 0
+
+    def note(self, part: _Part, seconds: float) -> None:
+        self.open -= part.last - part.first
+        self.seconds += seconds
+        self.timed += part.last - part.first
+        self.largest = max(self.largest, part.last - part.first)
+
+    def size(self, workers: int) -> int:
+        """Chains of the next part."""
+        if not self.timed:
+            return 1  # a chain may take minutes
+        wanted = WANTED * self.timed / max(self.seconds, 1e-6)
+        size = int(min(wanted, max(self.left / (2 * workers), wanted / FEWEST), GROWTH * self.largest))
+        if size > _graze.PartExchange.together:
+            size -= size % _graze.PartExchange.together
+        return max(1, min(size, self.ranges[0][1] - self.ranges[0][0]))
+
+    def cut(self, workers: int) -> Tuple[int, int]:
+        """Chains of the next part: the first one, and the one after the last."""
+        first, last = self.ranges[0]
+        end = first + self.size(workers)
+        if end < last:
+            self.ranges[0] = end, last
+        else:
+            self.ranges.popleft()
+        self.left -= end - first
+        return first, end
+
+
+class Parts:
+    """Has the points of runs computed by an executor, while the compiled part carries out a study with `exchange`.
+
+    `look` is to be called now and then by the thread that has called from Python: all that is done with the executor is
+    done there. `close` ends it: what waits is cancelled, and what is finished has been kept.
+    """
+
+    def __init__(self, executor: Executor):
+        if not callable(getattr(executor, "submit", None)):
+            raise InputError(f"executor is of type {type(executor).__name__}, which cannot be given work",
+                             "give a concurrent.futures.Executor, as a ProcessPoolExecutor or client.get_executor()")
+        self.exchange = _graze.PartExchange()
+        self._executor = executor
+        self._runs: Dict[int, _OpenRun] = {}
+        self._going: Dict[Future, _Part] = {}
+        self._ended: queue.SimpleQueue[Future] = queue.SimpleQueue()  # filled by threads of the executor
+        self._again: Deque[_Part] = deque()  # whose worker was lost
+        self._workers = 1
+        self._counted: Optional[float] = None  # when workers were counted
+
+    def look(self) -> None:
+        """Takes what has come and hands out more."""
+        for number, text, ranges in self.exchange.opened():
+            self._runs[number] = _OpenRun(number, text, ranges)
+        while True:
+            try:
+                self._take(self._ended.get_nowait())
+            except queue.Empty:
+                break
+        self._submit()
+
+    def close(self) -> None:
+        for future in list(self._going):
+            future.cancel()
+        self._going.clear()
+
+    def _take(self, future: Future) -> None:
+        part = self._going.pop(future, None)
+        if part is None:
+            return
+        run = part.run
+        try:
+            seconds, points = future.result()
+        except Error as error:
+            self._runs.pop(run.number, None)
+            self.exchange.fail(run.number, error.problem, error.remedy, error.file, error.line, error.column)
+        except BrokenExecutor as error:
+            raise self._broken(error) from error
+        except (Exception, CancelledError) as error:
+            part.attempt += 1
+            if part.attempt >= ATTEMPTS:
+                raise WorkersLost(
+                    f"a part of the run was given to workers {ATTEMPTS} times and came back without a result: "
+                    f"{type(error).__name__}: {error}",
+                    "look at what the workers print: each has to import the same version of graze, and needs memory for "
+                    "a part") from error
+            self._again.append(part)
+        else:
+            if run.number in self._runs:
+                self.exchange.give(run.number, part.content, points)
+                run.note(part, seconds)
+                if run.open == 0:
+                    del self._runs[run.number]
+
+    def _broken(self, error: Exception) -> WorkersLost:
+        return WorkersLost(f"the executor lost a worker and does nothing more: {error}",
+                           "go on with another executor: what was computed is kept. Workers may have run out of memory, or "
+                           "may have ended with the script's own code: guard that by if __name__ == \"__main__\"")
+
+    def _count_workers(self) -> None:
+        if self._counted is None or time.monotonic() > self._counted + 2:
+            self._workers = number_of_workers(self._executor)
+            self._counted = time.monotonic()
+
+    def _next(self) -> Optional[_Part]:
+        """The next part that is to be computed; None: all are given out."""
+        while self._again:
+            part = self._again.popleft()
+            if part.run.number in self._runs:
+                return part
+        for run in self._runs.values():
+            if run.ranges:
+                first, last = run.cut(self._workers)
+                content = self.exchange.part(run.number, first, last)
+                if content:
+                    return _Part(run, first, last, content)
+                run.ranges.clear()  # it was closed meanwhile
+        return None
+
+    def _submit(self) -> None:
+        if not self._again and not any(run.ranges for run in self._runs.values()):
+            return
+        self._count_workers()
+        while len(self._going) < 2 * self._workers + 1:
+            part = self._next()
+            if part is None:
+                return
+            try:
+                future = self._executor.submit(computed_part, part.run.text, part.content, part.attempt)
+            except BrokenExecutor as error:
+                raise self._broken(error) from error
+            except RuntimeError as error:  # after its shutdown
+                raise WorkersLost(f"the executor takes no work: {error}", "use it before its shutdown") from error
+            self._going[future] = part
+            future.add_done_callback(self._ended.put)

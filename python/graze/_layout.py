@@ -1,0 +1,524 @@
+"""From a design to masks: drawings of switches, their rules, the model of what is etched, and wafers of devices."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Mapping
+from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Tuple, Union
+
+from . import _graze
+from ._design import Design, DesignText, number_of_threads, told_text
+from ._errors import InputError, Interrupted
+from ._model import Model
+from ._output import OwnFolder, Replacement, empty_folder, write_file
+from ._progress import Progress
+from ._table import Table
+
+_PICTURES = (".svg", ".png", ".pdf")
+_COLOURS = {(1, 0): "#9ecae1", (2, 0): "#fdae6b", (10, 0): "#3182bd", (10, 1): "#31a354", (10, 2): "#74c476",
+            (11, 0): "#e6550d", (11, 1): "#fdd0a2", (12, 0): "#756bb1", (20, 0): "black", (21, 0): "black"}
+_MATERIALS = {"silicon": "0.6", "resist": "#de2d26", "epoxy": "#fec44f", "aluminium": "#3182bd"}
+
+
+class LumpedModel(NamedTuple):
+    """The model of a drawn and etched device, in SI units: a mass in kg on a spring in N/m with a damping in N s/m, plates
+    of an area in m^2 and a gap in m, and the way in m to the stops; the natural `frequency` in Hz, the `damping_ratio`,
+    `pull_in`, the voltage in V at which it snaps through at rest; the number of the `squeeze` film, the way `closure` in m
+    until the electrodes touch, and the largest stress of a beam by travel, in Pa/m."""
+
+    mass: float
+    stiffness: float
+    damping: float
+    area: float
+    gap: float
+    stop: float
+    frequency: float
+    damping_ratio: float
+    pull_in: float
+    squeeze: float
+    closure: float
+    stress_per_travel: float
+
+
+class ComparedDevice(NamedTuple):
+    """A drawn device beside the designed one: a `table` of quantities (designed, drawn, percent of difference), whether
+    the drawn one is as designed and has what is wanted (`met`), and two texts for `--set @FILE` of the program: the
+    numbers of the `drawing`, and the `parameters` of the model."""
+
+    table: Table
+    met: bool
+    drawing: str
+    parameters: str
+
+
+class Layout:
+    """A drawn device, or a wafer of them.
+
+    `table` has what is measured on the drawing, and the model of the etched device; `layout["gap"]` is one of its values
+    for the (first) device. `rules` is a table of the fabrication rules, `holds` whether all hold, and `broken` lists those
+    that do not, in words. `lumped` is the etched device's model in SI units, `parameters` a dict of the parameters that it
+    gives to the model of the design, and `device` that model with them.
+
+    `save(path)` writes masks, pictures and texts; `wafers(count)` makes wafers of devices by simulation.
+    """
+
+    def __init__(self, core: Any, source: DesignText, inputs: List[Tuple[str, str]], options: List[str],
+                 wafer: bool) -> None:
+        self._core, self._source, self._inputs, self._options = core, source, inputs, options
+        self.name: str = core.name
+        self.top: str = core.top
+        self.is_wafer = wafer
+        self.table = Table(*core.table())
+        rows = core.findings
+        names = ("rule", "value", "limit", "unit", "holds", "part", "device", "x", "y", "text")
+        self.rules = Table(names, [self._column(rows, name) for name in names])
+        self.broken: List[str] = [row["text"] for row in rows if not row["holds"]]
+
+    @staticmethod
+    def _column(rows: List[Dict[str, Any]], name: str) -> Any:
+        import numpy
+
+        values = [row[name] for row in rows]
+        return values if name in ("rule", "unit", "part", "device", "text") else numpy.array(values)
+
+    @property
+    def holds(self) -> bool:
+        """Whether all fabrication rules hold."""
+        return not self.broken
+
+    def __getitem__(self, what: str) -> float:
+        """A value of the table, for the first device: `layout["gap"]`."""
+        try:
+            return float(self.table["value"][self.table["what"].index(what)])
+        except ValueError:
+            raise KeyError(f"nothing of the name {what!r} is measured; there are {', '.join(self.table['what'])}") from None
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.table["what"])
+
+    @property
+    def lumped(self) -> LumpedModel:
+        """The model of the etched device in SI units. InputError for a wafer with devices that differ."""
+        return LumpedModel(**self._core.lumped())
+
+    @property
+    def parameters(self) -> Dict[str, float]:
+        """What the etched device makes of the parameters of the design's model, in their units."""
+        return dict(self._core.parameters())
+
+    @property
+    def device(self) -> Model:
+        """The model of the design with the parameters of the etched device."""
+        return Model._of(self._core.model())
+
+    def polygons(self, mask: Optional[int] = None) -> Dict[Tuple[int, int], List[Any]]:
+        """Polygons as arrays of corners (x, y) in micrometres, by layer and datatype of GDSII (`graze.mask_layers` says
+        what they are). mask: 1 (seen mirrored) or 2: only this one, as it is written."""
+        result: Dict[Tuple[int, int], List[Any]] = {}
+        for layer, datatype, corners in self._core.polygons(_mask(mask)):
+            result.setdefault((layer, datatype), []).append(corners)
+        return result
+
+    def gds(self, mask: Optional[int] = None, *, despite_rules: bool = False) -> bytes:
+        """The drawing as GDSII, with a top cell for each mask; or one mask (1 or 2) alone. InputError where a rule is
+        broken, unless despite_rules."""
+        self._require_ruled(despite_rules)
+        return bytes(self._core.gds(_mask(mask)))
+
+    def verilog_a(self) -> str:
+        """The etched device as a module of Verilog-A for circuit simulators."""
+        return str(self._core.verilog_a())
+
+    def recipe(self, *, despite_rules: bool = False) -> str:
+        """The process recipe, step by step, in Markdown."""
+        return str(self._core.recipe([*self._options, *(["--despite-rules"] if self.broken and despite_rules else [])]))
+
+    def markers(self) -> str:
+        """The places that break a rule, as markers of KLayout (.lyrdb)."""
+        return str(self._core.markers())
+
+    def _require_ruled(self, despite_rules: bool) -> None:
+        if not despite_rules:
+            try:
+                self._core.require_ruled()
+            except InputError as error:
+                raise self._source.told(error) from None
+
+    def save(self, path: Any, *, mask: Optional[int] = None, despite_rules: bool = False) -> None:
+        """Writes a file, whose ending says which: masks (.gds); a picture (.svg, .png, .pdf), drawn by matplotlib; the
+        places that break a rule (.lyrdb); the etched device as Verilog-A (.va), or its parameters (.toml) for `--set @FILE`
+        of the program; the process recipe (.md).
+
+        mask: 1 or 2: this mask alone. An existing file is replaced, but for the design. InputError where a rule is broken
+        (except for .lyrdb), unless despite_rules.
+        """
+        file = Replacement(path, self._inputs)
+        ending = os.path.splitext(file.path)[1].lower()
+        written: Dict[str, Callable[[], Union[str, bytes]]] = {
+            ".gds": lambda: bytes(self._core.gds(_mask(mask))), ".lyrdb": self.markers, ".va": self.verilog_a,
+            ".toml": lambda: str(self._core.parameter_text()), ".md": lambda: self.recipe(despite_rules=despite_rules)}
+        written[".gds2"] = written[".gdsii"] = written[".gds"]
+        if ending not in written and ending not in _PICTURES:
+            raise InputError(f"the ending of '{file.path}' does not say what kind of file to write",
+                             f"let the name end in {', '.join(sorted({*written, *_PICTURES}))}")
+        if ending != ".lyrdb":
+            self._require_ruled(despite_rules)
+        if ending in _PICTURES:
+            with file as temporary:
+                self._page(mask).savefig(temporary)
+        else:
+            write_file(file.path, written[ending](), self._inputs)
+
+    def _page(self, mask: Optional[int]) -> Any:
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+
+        page = Figure(figsize=(8, 8), layout="constrained")
+        FigureCanvasAgg(page)
+        self.plot(mask, axes=page.add_subplot())
+        return page
+
+    def plot(self, mask: Optional[int] = None, *, axes: Any = None) -> Any:
+        """Draws the polygons to scale, coloured by layer; mask: 1 or 2: only this one, as it is written. Returns the
+        axes."""
+        from matplotlib.collections import PolyCollection
+
+        axes = _axes(axes)
+        texts = mask_layers()
+        for layer, shapes in sorted(self.polygons(mask).items()):
+            outlined = layer[0] >= 20
+            axes.add_collection(PolyCollection(
+                shapes, facecolors="none" if outlined else _COLOURS.get(layer, "0.7"), linewidths=0.5,
+                edgecolors="black" if outlined else "none", label=texts[layer]))
+        axes.autoscale_view()
+        axes.set_aspect("equal")
+        axes.set_xlabel("x (um)")
+        axes.set_ylabel("y (um)")
+        axes.set_title(self.name if mask is None else f"{self.name}, mask {mask}", fontsize="medium")
+        axes.legend(fontsize="x-small", loc="center left", bbox_to_anchor=(1, 0.5))
+        return axes
+
+    def steps(self) -> List[Tuple[str, Table]]:
+        """Cross-sections after each step of the process: what is done, and a table of slabs (material, left, right, low,
+        high, in micrometres)."""
+        import numpy
+
+        names = ("left", "right", "low", "high")
+        return [(text, Table(["material", *names],
+                             [[slab[0] for slab in slabs],
+                              *(numpy.array([slab[i + 1] for slab in slabs], dtype=float) for i in range(4))],
+                             ["", *["um"] * 4])) for text, slabs in self._core.steps()]
+
+    def plot_steps(self, *, axes: Any = None) -> Any:
+        """Draws the cross-sections after each step of the process. Returns the axes, one for each."""
+        import numpy
+        from matplotlib.patches import Rectangle
+
+        steps = self.steps()
+        if axes is None:
+            from matplotlib import pyplot
+
+            _, axes = pyplot.subplots(len(steps), 1, figsize=(7, 1.1 * len(steps)), layout="constrained", sharex=True)
+        axes = numpy.atleast_1d(axes).ravel()
+        if len(axes) != len(steps):
+            raise InputError(f"{len(axes)} axes were given, and there are {len(steps)} steps", "give as many, or none")
+        for one, (text, slabs) in zip(axes, steps):
+            for material, left, right, low, high in zip(*slabs.values()):
+                one.add_patch(Rectangle((left, low), right - left, high - low, facecolor=_MATERIALS[material]))
+            one.autoscale_view()
+            one.set_title(text, fontsize="x-small", loc="left")
+        axes[-1].set_xlabel("x (um)")
+        return axes
+
+    def compare(self, *, threads: Optional[int] = None, progress: Progress = None) -> ComparedDevice:
+        """Where and how fast the drawn device trips, and which wishes it meets, beside the designed one. Needs a drawing
+        of a designed device (`from_design`)."""
+        folder = OwnFolder()
+        made = self._attended(lambda told: self._core.drawn(folder.path, threads=number_of_threads(threads), told=told),
+                              progress)
+        return ComparedDevice(Table(*made["table"]), made["met"], made["drawing"], made["parameters"])
+
+    def wafers(self, count: int, *, seed: int = 1, despite_rules: bool = False, threads: Optional[int] = None,
+               progress: Progress = None) -> "Wafers":
+        """Makes wafers of devices by simulation, with the variations of the section `spread` of the design: where each
+        device trips, and how many are as wanted.
+
+        count: of wafers. seed: of the random numbers. Results do not depend on threads. InputError where a rule is broken,
+        unless despite_rules, and where the design does not say what varies.
+        """
+        count, seed = _whole(count, "count", 1, 100_000), _whole(seed, "seed", 0, 2**53)
+        folder = OwnFolder()
+        made = self._attended(lambda told: self._core.wafers(
+            folder.path, count, seed=seed, despite_rules=bool(despite_rules), threads=number_of_threads(threads),
+            told=told), progress)
+        return Wafers(self, made, count, seed, folder)
+
+    def _attended(self, work: Callable[[Any], Any], progress: Progress) -> Any:
+        told, close = told_text(progress)
+        try:
+            return work(told)
+        except KeyboardInterrupt:
+            raise Interrupted() from None
+        except InputError as error:
+            raise self._source.told(error) from None
+        finally:
+            close()
+
+    def __repr__(self) -> str:
+        what = f"wafer, {len(self._core.devices)} kinds of devices" if self.is_wafer else "device"
+        rules = "all rules hold" if self.holds else f"broken rules: {len(self.broken)}"
+        return f"<Layout {self.name}: {what}; {rules}>"
+
+    def _repr_html_(self) -> str:
+        import base64
+        import html
+        import io
+
+        text = f"<p>{html.escape(repr(self))}</p>"
+        try:
+            data = io.BytesIO()
+            self._page(None).savefig(data, format="png", dpi=60)
+        except ImportError:
+            return text
+        return f'<img src="data:image/png;base64,{base64.b64encode(data.getvalue()).decode()}">{text}'
+
+
+class Wafers(Mapping):  # type: ignore[type-arg]
+    """Wafers of devices that were made by simulation.
+
+    A mapping from the quantities of `facts` to their values: `wafers["yield"]`. `devices` is a table of all devices: where
+    each lies, how it departs from the drawing, where it trips. `problems` is a dict of what prevents devices from tripping,
+    and how many it concerns; `failed` says how many have no trip value that was found; `count` and `seed` are as asked.
+    """
+
+    def __init__(self, layout: Layout, core: Any, count: int, seed: int, folder: OwnFolder) -> None:
+        self._layout, self._core, self._folder = layout, core, folder
+        self.count, self.seed = count, seed
+        self.facts, self.devices = Table(*core.facts()), Table(*core.devices())
+        self.failed: int = core.failed
+        self.problems: Dict[str, int] = dict(core.problems)
+
+    def __getitem__(self, quantity: str) -> Any:
+        try:
+            return self.facts["value"][self.facts["quantity"].index(quantity)]
+        except ValueError:
+            raise KeyError(f"there is no fact {quantity!r}; there are {', '.join(self)}") from None
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.facts["quantity"])
+
+    def __len__(self) -> int:
+        return len(self.facts)
+
+    @property
+    def report(self) -> str:
+        """The report as JSON, as the program writes it."""
+        return str(self._layout._core.wafer_json(self._core, self.count, self.seed))
+
+    def save(self, folder: Any) -> List[str]:
+        """Writes wafers.csv, devices.csv, report.json, and the maps map.svg and map.png, drawn by matplotlib, into a folder.
+        Returns the paths. FileError for a folder that is not empty."""
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+
+        folder = empty_folder(folder)
+        paths = [os.path.join(folder, name)
+                 for name in ("wafers.csv", "devices.csv", "report.json", "map.svg", "map.png")]
+        for path, text in zip(paths, (self._core.facts_csv(), self._core.devices_csv(), self.report)):
+            write_file(path, text)
+        columns = self._columns()
+        page = Figure(figsize=(3.2 * columns, 3.2 * math.ceil(self._drawn() / columns) + 0.4), layout="constrained")
+        FigureCanvasAgg(page)
+        self.plot(axes=page.subplots(math.ceil(self._drawn() / columns), columns, squeeze=False).ravel())
+        for path in paths[3:]:
+            with Replacement(path) as temporary:
+                page.savefig(temporary)
+        return paths
+
+    def _drawn(self) -> int:
+        return min(self.count, 16)
+
+    def _columns(self) -> int:
+        return math.ceil(math.sqrt(self._drawn()))
+
+    def plot(self, *, axes: Any = None) -> Any:
+        """Draws the devices on their wafers (the first 16), coloured by the value at which they trip; crosses have none;
+        those as wanted are ringed. axes: one for each wafer. Returns them."""
+        import numpy
+
+        drawn, columns = self._drawn(), self._columns()
+        if axes is None:
+            from matplotlib import pyplot
+
+            rows = math.ceil(drawn / columns)
+            _, axes = pyplot.subplots(rows, columns, figsize=(3.2 * columns, 3.2 * rows + 0.4), squeeze=False,
+                                      layout="constrained")
+        axes = numpy.atleast_1d(axes).ravel()
+        if len(axes) < drawn:
+            raise InputError(f"{len(axes)} axes were given, and there are {drawn} wafers", "give as many, or none")
+        values = numpy.array([_number(value) for value in self.devices[self._core.control]])
+        scale = {"vmin": numpy.nanmin(values), "vmax": numpy.nanmax(values)} if numpy.isfinite(values).any() else {}
+        least = -math.inf if self._core.least is None else self._core.least
+        greatest = math.inf if self._core.greatest is None else self._core.greatest
+        ringed = (values >= least) & (values <= greatest) if (least, greatest) != (-math.inf, math.inf) else None
+        shown = None
+        for number, one in enumerate(axes[:drawn], 1):
+            of_wafer = numpy.asarray(self.devices["wafer"]) == number
+            shown = self._draw_wafer(one, number, of_wafer, values, scale, ringed) or shown
+        for one in axes[drawn:]:
+            one.set_axis_off()
+        if shown is not None:
+            unit = f" ({self._core.unit})" if self._core.unit else ""
+            words = "" if ringed is None else "; ringed: as wanted"
+            axes[0].figure.colorbar(shown, ax=list(axes), label=f"{self._core.control}{unit}{words}", shrink=0.8)
+        return axes
+
+    def _draw_wafer(self, axes: Any, number: int, of_wafer: Any, values: Any, scale: Dict[str, Any],
+                    ringed: Any) -> Any:
+        import numpy
+        from matplotlib.patches import Circle
+
+        x, y = (numpy.asarray(self.devices[name], dtype=float)[of_wafer] for name in ("x", "y"))
+        found = numpy.isfinite(values[of_wafer])
+        radius = self._layout._core.wafer_radius
+        axes.add_patch(Circle((0, 0), _in_unit(radius, self.devices.units.get("x", "um")), fill=False, color="0.6"))
+        shown = axes.scatter(x[found], y[found], c=values[of_wafer][found], s=30, **scale) if found.any() else None
+        axes.plot(x[~found], y[~found], "x", color="black")
+        if ringed is not None:
+            inside = ringed[of_wafer]
+            axes.plot(x[inside], y[inside], "o", markerfacecolor="none", color="black", markersize=9)
+        axes.set_aspect("equal")
+        axes.set_xticks([])
+        axes.set_yticks([])
+        axes.set_title(f"wafer {number}", fontsize="small")
+        return shown
+
+    def __repr__(self) -> str:
+        facts = ", ".join(f"{name} {value:.6g}" if isinstance(value, float) else f"{name} {value}"
+                          for name, value in list(self.items())[:4])
+        return f"<Wafers of {self._layout.name}: {self.count} with {len(self.devices)} devices; {facts}>"
+
+    def _repr_html_(self) -> str:
+        import html
+
+        return f"<p>{html.escape(repr(self))}</p>{self.facts._repr_html_()}"
+
+
+def _in_unit(micrometres: float, unit: str) -> float:
+    return micrometres * {"um": 1.0, "mm": 1e-3, "m": 1e-6}.get(unit, 1.0)
+
+
+def _number(value: Any) -> float:
+    return float(value) if isinstance(value, (int, float)) else math.nan
+
+
+def _whole(value: Any, name: str, least: int, most: int) -> int:
+    if isinstance(value, bool) or not hasattr(value, "__index__") or not least <= value.__index__() <= most:
+        raise InputError(f"{name} is {value!r}", f"give a whole number from {least} to {most}")
+    return int(value.__index__())
+
+
+def _mask(mask: Any) -> Optional[int]:
+    if mask is not None and (isinstance(mask, bool) or mask not in (1, 2)):
+        raise InputError(f"mask is {mask!r}", "give 1 or 2, or leave it out for both")
+    return None if mask is None else int(mask)
+
+
+def _axes(axes: Any) -> Any:
+    if axes is None:
+        from matplotlib import pyplot
+
+        axes = pyplot.figure(figsize=(8, 8), layout="constrained").add_subplot()
+    return axes
+
+
+def _given(set_: Any) -> List[Tuple[str, Union[float, str]]]:
+    if not isinstance(set_, Mapping):
+        raise InputError(f"set is {set_!r}", 'give a dict, as {"gap": 14, "stop_gap": "7.5 um"}')
+    given: List[Tuple[str, Union[float, str]]] = []
+    for name, value in set_.items():
+        if not isinstance(name, str):
+            raise InputError(f"set has the key {name!r}", "name dimensions by texts")
+        if isinstance(value, str):
+            given.append((name, value))
+            continue
+        try:
+            given.append((name, float(value)))
+        except (TypeError, ValueError, OverflowError):
+            raise InputError(f"{name} is {value!r}", "give a number, or a text with its unit", "layout(), set") from None
+    return given
+
+
+def layout(design: Any = None, *, text: Optional[str] = None, set: Any = None, wafer: bool = False,
+           from_design: Any = None, **keys: Any) -> Layout:
+    """Draws the masks of a switch, checks the rules of fabrication, and makes the model of the etched device.
+
+    design: the name of a shipped design, or a design file whose table [device] has the dimensions (docs/layout.md); or
+        text: the text of such a file. Without both, keys say everything.
+    keys: the keys of such files, as device={"gap": 12}, process=..., rules=..., spread=..., wafer_ (for `wafer`): beside a
+        design or a text they change its keys.
+    set: numbers of [device], in micrometres, or of [process], in its unit, that replace those of the file: numbers, or texts
+        with a unit ("7.5 um"). With from_design they remain as they are.
+    wafer: draw the wafer with all its devices, instead of one device.
+    from_design: the device that was found by `graze.design` of this design (what it returned, or the folder of its
+        files): the drawing is solved for that has the wanted device after the etch.
+
+    Returns a Layout. Raises InputError for a design that has a mistake, and for what cannot be drawn. Broken rules are no
+    error here, but nothing but markers is written then, unless it is asked for.
+
+        drawing = graze.layout("mems-switch-device", set={"stop_gap": "7.5 um"})
+        drawing.save("device.gds")
+    """
+    if "wafer_" in keys:
+        keys["wafer"] = keys.pop("wafer_")
+    if isinstance(design, Design):
+        raise InputError("layout() was given what design() has found as the design",
+                         "name the design, and give from_design=FOUND")
+    return drawn(DesignText(design, text, keys, "layout()"), set, wafer, from_design)
+
+
+def drawn(source: DesignText, set_: Any, wafer: bool, from_design: Any) -> Layout:
+    """The layout of a design's text; other arguments: see `layout`."""
+    given = _given(set_) if set_ is not None else []
+    folder = _folder_of(from_design)
+    try:
+        core = _graze.Layout(source.text, source.file, given=given, wafer=bool(wafer),
+                             from_design=None if folder is None else folder[0])
+    except KeyboardInterrupt:
+        raise Interrupted() from None
+    except InputError as error:
+        for one in error.all:
+            if one.file.startswith("given "):
+                one.file = f"layout(), set, {one.file[6:]}"
+            elif one.file == "from_design":
+                one.file = "layout(), from_design"
+        raise source.told(error) from None
+    inputs = [("the design", source.path)]
+    if folder is not None:
+        inputs.append(("the designed device", os.path.join(folder[0], "device.toml")))
+    options = [] if not isinstance(from_design, (str, os.PathLike)) else ["--from-design", os.fspath(from_design)]
+    for name, value in given:
+        shown = value if isinstance(value, str) else repr(value).removesuffix(".0")
+        options += ["--set", f"{name}={shown}"]
+    return Layout(core, source, inputs, options, bool(wafer))
+
+
+def _folder_of(from_design: Any) -> Optional[Tuple[str, Any]]:
+    """The folder with the device, and what keeps it alive."""
+    if from_design is None:
+        return None
+    if isinstance(from_design, Design):
+        folder = OwnFolder()
+        write_file(os.path.join(folder.path, "device.toml"), from_design._core.device_text)
+        return folder.path, folder
+    try:
+        return os.fspath(from_design), None
+    except TypeError:
+        raise InputError(f"from_design is a {type(from_design).__name__}",
+                         "give what graze.design() returned, or a folder") from None
+
+
+def mask_layers() -> Dict[Tuple[int, int], str]:
+    """The layers of drawings: (layer, datatype) of GDSII -> what is on it."""
+    return {(layer, datatype): text for layer, datatype, text in _graze.mask_layers()}

@@ -1,0 +1,668 @@
+"""Measured records: tables of channels against time, what is computed from them, and estimates of parameters."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Mapping, Sequence
+from typing import Any, Dict, Iterable, Iterator, List, NamedTuple, Optional, Tuple, Union
+
+from . import _graze
+from ._errors import FileError, InputError, Interrupted
+from ._output import OwnFolder, Replacement
+from ._table import Table
+
+_PROCESSING = ("scale", "from_", "to", "pass_", "stop", "every", "derivative", "half_width")
+_READING = ("columns", "group", "skip", "names_line", "units_line")
+_TABLES = ("channels", "samples", "periods", "sections", "extremes", "spectrum", "impacts")
+
+
+def _number(value: Any, name: str, least: Optional[float] = None, above: Optional[float] = None) -> float:
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise InputError(f"{name} is {value!r}", "give a number") from None
+    except OverflowError:
+        raise InputError(f"{name} is too large", "give a smaller number") from None
+    if not abs(number) < float("inf"):
+        raise InputError(f"{name} is {value!r}", "give a finite number")
+    if least is not None and not number >= least:
+        raise InputError(f"{name} is {value!r}", f"give a number from {least:g} on")
+    if above is not None and not number > above:
+        raise InputError(f"{name} is {value!r}", f"give a number above {above:g}")
+    return number
+
+
+def _whole(value: Any, name: str, least: int, most: int) -> int:
+    try:
+        number = value.__index__() if not isinstance(value, bool) else None
+    except AttributeError:
+        number = None
+    if number is None or not least <= number <= most:
+        raise InputError(f"{name} is {value!r}", f"give a whole number from {least} to {most}")
+    return int(number)
+
+
+def _text(value: Any, name: str) -> str:
+    if not isinstance(value, str):
+        raise InputError(f"{name} is {value!r}", "give a text")
+    try:
+        value.encode()
+    except UnicodeEncodeError:
+        raise InputError(f"{name} is {value!r}, which cannot be written in UTF-8", "give another text") from None
+    return value
+
+
+def _names(value: Any, name: str) -> List[str]:
+    if isinstance(value, str):
+        return [value]
+    try:
+        return [_text(one, name) for one in value]
+    except TypeError:
+        raise InputError(f"{name} is {value!r}", "give a name, or a list of names") from None
+
+
+def _scales(scale: Any) -> List[Tuple[str, float, float, Optional[str]]]:
+    if not isinstance(scale, Mapping):
+        raise InputError(f"scale is {scale!r}", 'give a dict, as {"q": 2.011} or {"q": (2.011, 0.5, "mm")}')
+    scales = []
+    for channel, value in scale.items():
+        what = f"scale of {channel}"
+        parts = value if isinstance(value, (tuple, list)) else (value,)
+        if not 1 <= len(parts) <= 3:
+            raise InputError(f"{what} has {len(parts)} items", "give a factor, or (factor, offset, unit)")
+        unit = _text(parts[2], f"unit in the {what}") if len(parts) == 3 and parts[2] is not None else None
+        scales.append((_text(channel, "a channel of scale"), _number(parts[0], what),
+                       _number(parts[1], what) if len(parts) > 1 else 0.0, unit))
+    return scales
+
+
+def _processing(given: Dict[str, Any]) -> Dict[str, Any]:
+    """Keyword arguments of processing, in the words of the compiled part."""
+    words: Dict[str, Any] = {}
+    for name, value in given.items():
+        if value is None:
+            continue
+        if name == "scale":
+            words["scale"] = _scales(value)
+        elif name in ("from_", "to"):
+            words[name.rstrip("_")] = _number(value, name)
+        elif name in ("pass_", "stop"):
+            words[name.rstrip("_")] = _number(value, name, above=0)
+        elif name == "every":
+            words["every"] = _whole(value, name, 1, 1_000_000)
+        elif name == "half_width":
+            words["half_width"] = _whole(value, name, 4, 100_000)
+        else:
+            words["derivative"] = _text(value, name)
+    if "stop" in words and "pass" not in words:
+        raise InputError("stop is given without pass_", "give pass_ too")
+    if "half_width" in words and "derivative" not in words:
+        raise InputError("half_width is given without derivative", "give derivative too")
+    return words
+
+
+def _table_words(what: str, given: Dict[str, Any]) -> Dict[str, Any]:
+    words: Dict[str, Any] = {}
+    for name, value in given.items():
+        if value is None:
+            continue
+        if name in ("channels", "negate"):
+            words[name] = _names(value, name)
+        elif name == "channel":
+            words["channels"] = _names(value, name)
+        elif name in ("reference", "displacement"):
+            words[name] = _text(value, name)
+        elif name == "level":
+            words[name] = _number(value, name)
+        elif name == "hysteresis":
+            words[name] = _number(value, name, above=0)
+        elif name == "least_jump":
+            words[name] = _number(value, name, least=0)
+        elif name == "phases":
+            words[name] = [_phase(one) for one in (value if isinstance(value, Iterable) else [value])]
+        elif name == "window":
+            words[name] = _whole(value, name, 5, 100_000)
+        elif name == "transition":
+            words[name] = _whole(value, name, 0, 100_000)
+        elif name == "part":
+            words[name] = _whole(value, name, 8, 4_000_000)
+        else:
+            raise TypeError(f"the table {what!r} of records has no argument {name!r}")
+    return words
+
+
+def _phase(value: Any) -> float:
+    phase = _number(value, "a phase")
+    if not 0 <= phase < 1:
+        raise InputError(f"a phase is {value!r}", "give parts of a period, from 0 to less than 1")
+    return phase
+
+
+class PeriodFit(NamedTuple):
+    """The period of a record, by a straight line through the times at which its reference rises through a level.
+
+    `period`, `begin` (of the first one) and their standard errors `error`, `begin_error`; `jitter`, the standard
+    deviation of the times about the line; the number of whole `periods`; `amplitude` of the reference, averaged.
+    """
+
+    period: float
+    error: float
+    begin: float
+    begin_error: float
+    jitter: float
+    periods: int
+    amplitude: float
+
+
+class HarmonicFit(NamedTuple):
+    """The least-squares fit of offset + sine sin(frequency t) + cosine cos(frequency t), with standard errors for white
+    noise: `amplitude` and `phase` (in radians) are those of amplitude sin(frequency t + phase); `covariance` is that of
+    sine and cosine; `noise` the standard deviation of the residuals."""
+
+    frequency: float
+    offset: float
+    offset_error: float
+    sine: float
+    sine_error: float
+    cosine: float
+    cosine_error: float
+    covariance: float
+    amplitude: float
+    amplitude_error: float
+    phase: float
+    phase_error: float
+    noise: float
+    samples: int
+
+
+class _RecordTables:
+    """What is computed from one record, or from several whose channels and units agree."""
+
+    _cores: List[Any]
+
+    def _computed(self, function: Any, *arguments: Any) -> Any:
+        try:
+            return function(*arguments)
+        except KeyboardInterrupt:
+            raise Interrupted() from None
+        finally:
+            self._tell_remarks()
+
+    def _tell_remarks(self) -> None:
+        pass
+
+    def table(self, what: str, **given: Any) -> Table:
+        """A table by its name in `graze record --what`: channels, samples, periods, sections, extremes, spectrum or
+        impacts; with the arguments of the function of that name. Of several records, the first column tells which."""
+        words = _table_words(what, given)
+        return Table(*self._computed(_graze.record_table, self._cores, _text(what, "what"), words))
+
+    def summary(self, *, channels: Any = None) -> Table:
+        """Each channel: least, greatest, mean, standard deviation; number of samples, begin, end, shortest and longest
+        step of the record."""
+        return self.table("channels", channels=channels)
+
+    def periods(self, reference: str, *, channels: Any = None, level: Optional[float] = None,
+                hysteresis: Optional[float] = None) -> Table:
+        """Each period of a reference channel: begin, duration, amplitude of each channel.
+
+        reference: periods begin where this channel rises through `level` (0), having been `hysteresis` below it, and
+            before it is as far above (a tenth of its range, against noise).
+        """
+        return self.table("periods", reference=reference, channels=channels, level=level, hysteresis=hysteresis)
+
+    def sections(self, reference: str, *, phases: Any = 0, negate: Any = None, channels: Any = None,
+                 level: Optional[float] = None, hysteresis: Optional[float] = None) -> Table:
+        """All channels at phases (parts of a period, 0 <= phase < 1, one or several) of each period of a reference
+        channel, with the amplitude of the reference.
+
+        negate: channels whose sign the symmetric image half a period later changes; images are added as rows.
+        """
+        return self.table("sections", reference=reference, phases=phases, negate=negate, channels=channels, level=level,
+                          hysteresis=hysteresis)
+
+    def extremes(self, reference: str, *, channels: Any = None, level: Optional[float] = None,
+                 hysteresis: Optional[float] = None) -> Table:
+        """Least and greatest value of each channel in each period of a reference channel, their times and difference."""
+        return self.table("extremes", reference=reference, channels=channels, level=level, hysteresis=hysteresis)
+
+    def spectrum(self, channel: str, *, part: Optional[int] = None) -> Table:
+        """Amplitudes of a channel by frequency; averaged over parts of so many samples, or of the record as one part."""
+        return self.table("spectrum", channel=channel, part=part)
+
+    def impacts(self, channel: str, *, displacement: Optional[str] = None, window: Optional[int] = None,
+                transition: Optional[int] = None, least_jump: Optional[float] = None) -> Table:
+        """Jumps of a velocity channel: time, velocity before and after, standard errors, ratio.
+
+        displacement: a channel whose corners tell the times. window: samples on each side to which velocities are fitted
+        (12). transition: samples on each side that the impact itself disturbs (0). least_jump: smaller jumps are none.
+        """
+        return self.table("impacts", channel=channel, displacement=displacement, window=window, transition=transition,
+                          least_jump=least_jump)
+
+    def _written(self, folder: str) -> List[str]:
+        """Writes the records into a folder. Returns their names."""
+        raise NotImplementedError
+
+    def fit(self, model: Any, *, threads: Optional[int] = None, progress: Any = None, **keys: Any) -> Any:
+        """Finds parameters and initial states of a model by least squares through impacts: `graze.identify` with
+        what="fit", whose keys are those of this function: `record.fit(model, unknowns=["zeta", "e"], readings=["x"])`.
+
+        Returns a graze.Identification; raises as `graze.identify` does.
+        """
+        from ._runs import identify, record
+
+        if "what" in keys or "records" in keys:
+            raise InputError("fit() was given what and records", "they are known; use graze.identify for others")
+        folder = OwnFolder()
+        run = record(files=self._written(folder.path), folder=folder.path)
+        found = identify(model, run, what="fit", threads=threads, progress=progress, **keys)
+        found._records_folder = folder  # lives as long as the result
+        return found
+
+    def plot(self, what: str = "samples", *, axes: Any = None, **given: Any) -> Any:
+        """Draws a table by its name, as `graze record --plot` does; the arguments are those of `table`. Returns the
+        axes."""
+        from ._plot import draw
+
+        words = _table_words(what, given)
+        return draw(self._computed(_graze.record_figure, self._cores, _text(what, "what"), words), axes)
+
+    def _repr_html_(self) -> str:
+        from ._plot import small_picture
+
+        def drawn() -> Any:
+            return _graze.record_figure(self._cores, "samples", {}) if self._bytes() < _QUICKLY_READ else None
+
+        return str(small_picture(drawn, repr(self)))
+
+    def _bytes(self) -> int:
+        """Size of the files."""
+        return 0
+
+
+_QUICKLY_READ = 20_000_000  # bytes
+
+
+class MeasuredRecord(_RecordTables):
+    """A table of measured channels against time.
+
+    `read_record(path)` reads one; `MeasuredRecord(times, {"V": values}, units={"V": "V"})` makes one of arrays, which are
+    copied. `record["V"]` (or `record.V`) is a channel, `record.t` are the times, as numpy arrays; `samples` is the table of
+    all. `channels` are the names, `units` a dict, `time_unit` that of the times. Files are read part by part: only
+    `samples` needs memory for the whole record. `remarks` says what was left out of the file.
+
+    Raises InputError unless each channel has a finite value at each time, and times rise.
+    """
+
+    def __init__(self, times: Any, channels: Any, *, units: Optional[Mapping[str, str]] = None, time_unit: str = "",
+                 name: str = "record") -> None:
+        if not isinstance(channels, Mapping):
+            raise InputError(f"channels are a {type(channels).__name__}", "give a dict: name -> values")
+        units = units or {}
+        for one in units:
+            if one not in channels:
+                raise InputError(f"there is no channel {one!r} for the unit", f"there are {', '.join(map(str, channels))}")
+        named = [(_text(one, "a channel"), _text(units.get(one, ""), "a unit")) for one in channels]
+        arrays = [_array(values, one) for one, values in channels.items()]
+        self._take(_graze.Record.of_arrays(_text(name, "name"), ("t", _text(time_unit, "time_unit")),
+                                           _array(times, "times"), named, arrays), [])
+
+    @classmethod
+    def _of(cls, core: Any, inputs: List[Tuple[str, str]]) -> "MeasuredRecord":
+        record = cls.__new__(cls)
+        record._take(core, inputs)
+        return record
+
+    def _take(self, core: Any, inputs: List[Tuple[str, str]]) -> None:
+        self._core, self._cores, self._inputs = core, [core], inputs
+        self._samples: Optional[Table] = None
+        self._told = 0
+        self.name: str = core.name
+        self.channels: Tuple[str, ...] = tuple(name for name, _ in core.channels)
+        self.units: Dict[str, str] = dict(core.channels)
+        self.time_unit: str = core.time[1]
+        self._tell_remarks()
+
+    def _tell_remarks(self) -> None:
+        for text in self._core.remarks[self._told:]:
+            self._told += 1
+            warnings.warn(text, stacklevel=5)
+
+    def _bytes(self) -> int:
+        return sum(os.path.getsize(path) for _, path in self._inputs if os.path.isfile(path))
+
+    @property
+    def remarks(self) -> List[str]:
+        """What was left out of the file, as far as it has been read: rows with missing values, a last line that was cut
+        off. Each is a warning too."""
+        return list(self._core.remarks)
+
+    @property
+    def samples(self) -> Table:
+        """All samples, read once and kept: the times and each channel as arrays."""
+        if self._samples is None:
+            self._samples = Table(*self._computed(self._core.samples))
+        return self._samples
+
+    @property
+    def t(self) -> Any:
+        """The times, as an array."""
+        return self.samples[self._core.time[0]]
+
+    def __getitem__(self, channel: str) -> Any:
+        if channel not in self.units:
+            raise KeyError(f"the record has no channel {channel!r}; it has {', '.join(self.channels)}")
+        return self.samples[channel]
+
+    def __getattr__(self, channel: str) -> Any:
+        if channel.startswith("_") or channel not in self.__dict__.get("units", ()):
+            raise AttributeError(f"the record has no channel or attribute {channel!r}")
+        return self.samples[channel]
+
+    def __dir__(self) -> List[str]:
+        return [*super().__dir__(), *(name for name in self.channels if name.isidentifier())]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.channels)
+
+    def processed(self, *, scale: Any = None, from_: Optional[float] = None, to: Optional[float] = None,
+                  pass_: Optional[float] = None, stop: Optional[float] = None, every: Optional[int] = None,
+                  derivative: Optional[str] = None, half_width: Optional[int] = None) -> "MeasuredRecord":
+        """The record after these steps, in this order; nothing is read before it is needed.
+
+        scale: what readings mean: {"q": factor}, or {"q": (factor, offset, unit)}.
+        from_, to: rows from this time on, and up to this time.
+        pass_, stop: a symmetric low pass, which delays nothing: frequencies up to pass_ remain, those from stop
+            (1.5 pass_) on are taken away. every: one of so many samples is kept, without what is too fast for them.
+        derivative: a channel whose derivative, and its standard error, become channels `..._rate` and `..._rate_error`;
+            half_width: samples on each side that tell it (those for which its error is least).
+        """
+        given = {"scale": scale, "from_": from_, "to": to, "pass_": pass_, "stop": stop, "every": every,
+                 "derivative": derivative, "half_width": half_width}
+        return MeasuredRecord._of(self._core.processed(_processing(given)), self._inputs)
+
+    def period(self, reference: str, *, level: float = 0.0, hysteresis: Optional[float] = None) -> PeriodFit:
+        """The period of a reference channel, by all times at which it rises through a level (see `periods`)."""
+        noise = 0.0 if hysteresis is None else _number(hysteresis, "hysteresis", above=0)
+        return PeriodFit(**self._computed(self._core.period, _text(reference, "reference"), _number(level, "level"), noise))
+
+    def harmonic(self, channel: str, frequency: float) -> HarmonicFit:
+        """The sine of a frequency that fits a channel best. frequency: in radians per unit of time, as 2*pi/period."""
+        return HarmonicFit(**self._computed(self._core.harmonic, _text(channel, "channel"),
+                                            _number(frequency, "frequency", above=0)))
+
+    def write(self, path: Any, *, channels: Any = ()) -> None:
+        """Writes the record, or these channels: HDF5 where the name ends in .h5 or .hdf5, otherwise text with commas, whose
+        numbers are read back exactly. An existing file is replaced, but for the one that the record comes from."""
+        names = _names(channels, "channels")
+        with Replacement(path, self._inputs) as temporary:
+            self._computed(self._core.write, temporary, names)
+
+    def _written(self, folder: str) -> List[str]:
+        self._computed(self._core.write, os.path.join(folder, "record.h5"), [])
+        return ["record.h5"]
+
+    def to_pandas(self) -> Any:
+        """The samples as a pandas DataFrame."""
+        return self.samples.to_pandas()
+
+    def to_xarray(self) -> Any:
+        """The samples as an xarray Dataset along the time."""
+        time = self._core.time[0]
+        data = self.samples.to_xarray()
+        return data.set_coords(time).swap_dims(row=time)
+
+    def __repr__(self) -> str:
+        channels = ", ".join(f"{name} [{unit}]" if unit else name for name, unit in self.units.items())
+        return f"<MeasuredRecord {self.name}: {channels}>"
+
+
+class MeasuredRecords(_RecordTables, Sequence):  # type: ignore[type-arg]
+    """Several records, as of a sweep: a sequence of MeasuredRecord, with tables and pictures of all together."""
+
+    def __init__(self, records: Iterable[MeasuredRecord]) -> None:
+        self._records = tuple(records)
+        for one in self._records:
+            if not isinstance(one, MeasuredRecord):
+                raise InputError(f"a {type(one).__name__} is no MeasuredRecord", "read records by graze.read_record")
+        if not self._records:
+            raise InputError("there are no records", "give one or more")
+        self._cores = [one._core for one in self._records]
+
+    def _tell_remarks(self) -> None:
+        for one in self._records:
+            one._tell_remarks()
+
+    def _bytes(self) -> int:
+        return sum(one._bytes() for one in self._records)
+
+    def __getitem__(self, index: Any) -> Any:
+        if isinstance(index, slice):
+            return MeasuredRecords(self._records[index])
+        return self._records[index]
+
+    def __len__(self) -> int:
+        return len(self._records)
+
+    def _written(self, folder: str) -> List[str]:
+        names = [f"record{number}.h5" for number in range(1, len(self) + 1)]
+        for one, name in zip(self._records, names):
+            one._computed(one._core.write, os.path.join(folder, name), [])
+        return names
+
+    def processed(self, **given: Any) -> "MeasuredRecords":
+        """Each record processed in the same way: see `MeasuredRecord.processed`."""
+        return MeasuredRecords(one.processed(**given) for one in self._records)
+
+    def __repr__(self) -> str:
+        return f"<MeasuredRecords: {len(self)} records, {', '.join(self._records[0].channels)}>"
+
+
+def _array(values: Any, name: str) -> Any:
+    import numpy
+
+    try:
+        return numpy.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError(f"{name} are no numbers", "give an array of numbers") from None
+
+
+def _path(path: Any) -> str:
+    try:
+        text = os.fspath(path)
+    except TypeError:
+        raise InputError(f"a record is named by {path!r}", "name a file") from None
+    text = os.fsdecode(text) if isinstance(text, bytes) else str(text)
+    if not text or "\0" in text:
+        raise FileError(f"{text!r} is no name of a file", "name a file")
+    return str(text)
+
+
+def read_record(path: Any, *more: Any, columns: Optional[str] = None, group: Optional[str] = None,
+                skip: Optional[int] = None, names_line: Optional[int] = None, units_line: Optional[int] = None,
+                **processing: Any) -> Any:
+    """Opens a record: text or HDF5, of any length (docs/records.md says what can be read).
+
+    columns: names and units of the columns of a text without a first line that says it: "t [s], V [V]". skip: lines to
+        pass over at its beginning. names_line, units_line: lines with names and units, counted from 1. group: of HDF5,
+        whose datasets are the channels.
+    Other arguments process the record: see `MeasuredRecord.processed`.
+
+    Returns a MeasuredRecord; of several paths, MeasuredRecords. Raises InputError, with file, line and column, for what
+    is no record: here for its beginning, and otherwise where it is read; a warning tells what is left out.
+
+        run = graze.read_record("run.csv", derivative="q")
+        run.sections("V", phases=[0, 0.25]).to_pandas()
+    """
+    for name in processing:
+        if name not in _PROCESSING:
+            raise TypeError(f"read_record() has no argument {name!r}; it has {', '.join((*_READING, *_PROCESSING))}")
+    layout: Dict[str, Union[str, int]] = {}
+    for name, text in (("columns", columns), ("group", group)):
+        if text is not None:
+            layout[name] = _text(text, name)
+    for name, number, least in (("skip", skip, 0), ("names_line", names_line, 1), ("units_line", units_line, 1)):
+        if number is not None:
+            layout[name] = _whole(number, name, least, 1_000_000_000)
+    words = _processing(processing)
+    records = []
+    for one in (path, *more):
+        core = _graze.Record.opened(_path(one), layout)
+        records.append(MeasuredRecord._of(core.processed(words) if words else core, [("the record", _path(one))]))
+    return records[0] if not more else MeasuredRecords(records)
+
+
+class Estimate(NamedTuple):
+    """An estimated number: `value`, `unit`, its standard `error` (NaN: unknown), the ends `low` and `high` of the interval
+    that covers the truth with a probability of 95 %, and the degrees of `freedom` of the error."""
+
+    value: float
+    error: float
+    low: float
+    high: float
+    freedom: float
+    unit: str
+
+
+class Estimates(Mapping):  # type: ignore[type-arg]
+    """Numbers estimated from records: a mapping from names to `Estimate`.
+
+    `warnings` says why intervals cannot be relied on: an interval has a meaning only where the list is empty.
+    `covariance` is the matrix of covariances in the order of the names, zero where unknown (None: all are unknown);
+    `table` has all as columns; `plot()` draws measured and fitted values, and the residuals.
+    """
+
+    def __init__(self, made: Any) -> None:
+        values, self.covariance, told, self._figure = made
+        nan = float("nan")
+        self._values: Dict[str, Estimate] = {}
+        for name, unit, value, error, freedom, width in values:
+            known = freedom > 0
+            self._values[name] = Estimate(value, error if known else nan, value - width if known else nan,
+                                          value + width if known else nan, freedom if known else nan, unit)
+        self.warnings: List[str] = list(told)
+
+    def __getitem__(self, name: str) -> Estimate:
+        if name not in self._values:
+            raise KeyError(f"there is no estimate {name!r}; there are {', '.join(self._values)}")
+        return self._values[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._values)
+
+    def __len__(self) -> int:
+        return len(self._values)
+
+    @property
+    def table(self) -> Table:
+        """All estimates: name, unit, value, error, low, high, freedom."""
+        import numpy
+
+        names = ("value", "error", "low", "high", "freedom")
+        columns = [numpy.array([getattr(one, name) for one in self.values()], dtype=float) for name in names]
+        return Table(["name", "unit", *names], [list(self), [one.unit for one in self.values()], *columns])
+
+    def plot(self, *, axes: Any = None) -> Any:
+        """Draws measured and fitted values, and the residuals below. Returns the axes."""
+        from ._plot import draw
+
+        return draw(self._figure, axes)
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{name} {one.value:.6g}" + (f" +- {one.error:.2g}" if one.error == one.error else "")
+                           for name, one in self.items())
+        return f"<Estimates: {values}{f'; warnings: {len(self.warnings)}' if self.warnings else ''}>"
+
+    def _repr_html_(self) -> str:
+        import html
+
+        told = "".join(f"<p>{html.escape(text)}</p>" for text in self.warnings)
+        return str(self.table._repr_html_()) + told
+
+
+def _estimates(what: str, records: Tuple[Any, ...], words: Dict[str, Any]) -> Estimates:
+    found: List[MeasuredRecord] = []
+    for one in records:
+        if isinstance(one, (MeasuredRecords, list, tuple)):
+            found += MeasuredRecords(one)
+        elif isinstance(one, MeasuredRecord):
+            found.append(one)
+        else:
+            found.append(read_record(one))
+    if not found:
+        raise InputError("there are no records", "give one or more")
+    return Estimates(MeasuredRecords(found)._computed(_graze.identified, [one._core for one in found], what, words))
+
+
+def _known(value: Any, name: str, words: Dict[str, Any], above: Optional[float] = None) -> None:
+    """A number that is known, or (number, standard error), or an Estimate."""
+    if value is None:
+        return
+    error: Any = 0.0
+    if isinstance(value, Estimate):
+        value, error = value.value, value.error
+    elif isinstance(value, (tuple, list)):
+        if len(value) != 2:
+            raise InputError(f"{name} has {len(value)} items", "give a number, or (number, standard error)")
+        value, error = value
+    words[name] = repr(_number(value, name, above=above))
+    words[f"{name}_error"] = _number(error, f"the error of {name}", least=0)
+
+
+def decrement(*records: Any, channel: str = "v", peaks: int = 10) -> Estimates:
+    """Natural frequency and damping ratio from free decaying oscillations, one release a record.
+
+    records: MeasuredRecord objects or paths. channel: that decays. peaks: how many are used, the first of each record.
+    Raises InputError for records from which they cannot be estimated.
+    """
+    words = {"channel": _text(channel, "channel"), "peaks": _whole(peaks, "peaks", 2, 100_000)}
+    return _estimates("decrement", records, words)
+
+
+def restitution(*records: Any, channel: str = "v", displacement: Optional[str] = None, window: int = 12,
+                transition: int = 0, least_jump: float = 0.0) -> Estimates:
+    """The coefficient of restitution from impacts in a velocity, one record for each set of conditions.
+
+    The arguments are those of `MeasuredRecord.impacts`. Velocities are relative to the stop.
+    """
+    words = _table_words("impacts", {"displacement": displacement, "window": window, "transition": transition,
+                                     "least_jump": least_jump})
+    return _estimates("restitution", records, {"channel": _text(channel, "channel"), **words})
+
+
+def coupling(*records: Any, gap: Any, stiffness: Any, displacement: str = "q", current: str = "I",
+             noise: Optional[Tuple[float, float]] = None) -> Estimates:
+    """The constants beta1 and beta2 of an electromagnet from equilibria, one in each row of the records.
+
+    gap: at rest. stiffness: the mass times the square of the natural frequency. Both are numbers in the units of the
+    record, or (number, standard error). noise: of displacement and current, of which only the ratio matters.
+    """
+    words: Dict[str, Any] = {"displacement": _text(displacement, "displacement"), "current": _text(current, "current")}
+    _known(gap, "gap", words, above=0)
+    _known(stiffness, "stiffness", words, above=0)
+    if noise is not None:
+        if not isinstance(noise, (tuple, list)) or len(noise) != 2:
+            raise InputError(f"noise is {noise!r}", "give that of the displacement and that of the current")
+        words["displacement_noise"] = _number(noise[0], "the noise of the displacement", above=0)
+        words["current_noise"] = _number(noise[1], "the noise of the current", above=0)
+    return _estimates("coupling", records, words)
+
+
+def impedance(*records: Any, voltage: str = "V", current: str = "I", frequency: Optional[float] = None,
+              beta1: Any = None, beta2: Any = None, gap: Any = None, clamped: Optional[float] = None) -> Estimates:
+    """Resistance and inductance of a coil whose mass is clamped, under a sinusoidal voltage.
+
+    frequency: of the voltage roughly, per unit of time (found from the record). With beta1 and beta2 (numbers, (number,
+    error) or estimates of `coupling`), gap, and the displacement at which the mass is clamped, also the leakage
+    inductance.
+    """
+    words: Dict[str, Any] = {"voltage": _text(voltage, "voltage"), "current": _text(current, "current")}
+    for name, value in (("beta1", beta1), ("beta2", beta2), ("gap", gap)):
+        _known(value, name, words, above=0 if name == "gap" else None)
+    if clamped is not None:
+        words["clamped"] = repr(_number(clamped, "clamped"))
+    if frequency is not None:
+        words["frequency"] = repr(_number(frequency, "frequency", above=0))
+    return _estimates("impedance", records, words)

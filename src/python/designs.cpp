@@ -1,0 +1,228 @@
+#include "graze/base/input_error.hpp"
+#include "graze/base/with_place.hpp"
+#include "graze/design/design_folder.hpp"
+#include "graze/layout/verilog_a.hpp"
+#include "graze/model/model_file.hpp"
+#include "graze/picture/design_page.hpp"
+#include "graze/results/table_text.hpp"
+#include "python/design_work.hpp"
+#include "python/figures.hpp"
+#include "python/tables.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+namespace graze::python {
+
+namespace {
+
+constexpr const char* generator = "graze " GRAZE_VERSION;
+
+std::string path_in(const std::string& folder, const char* name) {
+    return (std::filesystem::path(folder) / name).string();
+}
+
+/// A finished design: the device, and all that is known about it.
+class ComputedDesign {
+public:
+    /// @param folder receives the result files of the ways to the trip points
+    ComputedDesign(const Design& design, const std::string& folder, const DesignReportOptions& options)
+        : first_(design), design_(design) {
+        trip_ = locate_trip(first_, path_in(folder, "results.sqlite"), options);
+        std::optional<MetWishes> wishes;
+        if (trip_ && !first_.wanted.is_empty()) {
+            wishes = with_place(first_.approach.place, [&] { return device_found(options); });
+            if (wishes->found.outcome != WishOutcome::nowhere && wishes->found.outcome != WishOutcome::interrupted) {
+                // Follow the finished device from the start too: it may trip earlier, at another point.
+                design_ = with_values(first_, wishes->values());
+                trip_ = locate_trip(design_, path_in(folder, "designed.sqlite"), options);
+            }
+        }
+        if (!trip_ || options.interrupted())
+            return; // `attended` throws what has interrupted
+        report_ = with_place(design_.approach.place, [&] { return report_of(design_, *trip_, options); });
+        report_.wishes = std::move(wishes);
+        tables_ = tables_of(design_, *trip_, report_);
+    }
+
+    const Design& design() const { return design_; }
+    const DesignReport& report() const { return report_; }
+    const std::vector<NamedTable>& tables() const { return tables_; }
+    const TripPoint& trip() const { return *trip_; }
+
+    std::string json() const {
+        JsonObject report;
+        report.add("graze", GRAZE_VERSION);
+        report.add("design", design_.name);
+        report.add("model", design_.model.name);
+        report.add("control", design_.control);
+        for (const NamedTable& table : tables_)
+            if (!table.name.starts_with("plane-") && table.name != "devices")
+                report.add(table.name, json_rows(table.table));
+        return "{" + report.members() + "}\n";
+    }
+    std::string device_text() const { return device_heading(first_) + write_model(model_of_device(*trip_)); }
+
+    /// What the user should look at, in words; empty: the design is regular.
+    std::vector<std::string> warnings() const {
+        std::vector<std::string> all;
+        const auto& wanted = design_.wanted.outcome;
+        if (wanted && report_.found.outcome != *wanted)
+            all.push_back("the class is " + std::string(class_name(report_.found.outcome)) + ", and " +
+                          std::string(class_name(*wanted)) + " is wanted");
+        if (report_.trial.outcome == TrialOutcome::contradicted)
+            all.push_back("simulation contradicts the class: below " + report_.trial.seen_below + ", above " +
+                          report_.trial.seen_above);
+        if (report_.trial.outcome == TrialOutcome::undecided && report_.found.outcome != GrazingOutcome::undecided)
+            all.push_back("the class is not checked by simulation: " + report_.trial.reason);
+        if (report_.yield && report_.yield->failed > 0)
+            all.push_back(std::to_string(report_.yield->failed) + " of " + std::to_string(report_.yield->made) +
+                          " devices trip at no value that was found");
+        if (report_.wishes && report_.wishes->found.outcome != WishOutcome::met)
+            all.push_back("what is wanted: " + std::string(name_of(report_.wishes->found.outcome)) + "; " +
+                          report_.wishes->found.reason);
+        if (trips_elsewhere())
+            all.emplace_back("on its way to the trip point for which it was made, the device comes first to another "
+                             "one: change approach.range, approach.from or what is wanted");
+        return all;
+    }
+
+private:
+    MetWishes device_found(const DesignReportOptions& options) const {
+        WishesOptions wishes;
+        wishes.jobs = options.jobs;
+        wishes.interrupted = options.interrupted;
+        wishes.progress = [&](std::size_t devices) {
+            options.progress(std::to_string(devices) + " devices tried for what is wanted");
+        };
+        return meet_wishes(first_, *trip_, wishes);
+    }
+    bool trips_elsewhere() const {
+        constexpr double alike = 1e-6; // far above the difference between two solutions of the same problem
+        return report_.wishes && report_.wishes->trip_value &&
+               !(std::abs(*report_.wishes->trip_value - trip_->value()) <= alike * std::abs(trip_->value()));
+    }
+
+    Design first_, design_;
+    std::optional<TripPoint> trip_;
+    DesignReport report_;
+    std::vector<NamedTable> tables_;
+};
+
+std::shared_ptr<ComputedDesign> computed(const Design& design, const std::string& folder, int threads,
+                                         const py::object& told) {
+    std::shared_ptr<ComputedDesign> result;
+    attend_design(threads, told, [&](const DesignReportOptions& options) {
+        result = std::make_shared<ComputedDesign>(design, folder, options);
+    });
+    return result;
+}
+
+py::list dimensions_of(const Design& design) {
+    const std::vector<double> values = design.model.parameter_values();
+    py::list list;
+    for (const DesignDimension& one : design.dimensions) {
+        py::dict object;
+        object["name"] = one.name;
+        object["unit"] = one.unit;
+        object["text"] = one.text;
+        object["value"] = values[one.parameter.place()];
+        object["range"] = py::make_tuple(one.least, one.greatest);
+        list.append(object);
+    }
+    return list;
+}
+
+py::list found_wants_of(const DesignReport& report) {
+    py::list list;
+    if (!report.wishes)
+        return list;
+    const MetWishes& wishes = *report.wishes;
+    for (std::size_t i = 0; i < wishes.found.wants.size(); ++i) {
+        const FoundWant& found = wishes.found.wants[i];
+        py::dict object;
+        object["name"] = wishes.list.wants[i].name;
+        object["least"] = wishes.list.wants[i].least;
+        object["most"] = wishes.list.wants[i].most;
+        object["value"] = found.value;
+        object["met"] = found.met;
+        object["binds"] = found.binds;
+        object["weight"] = found.weight;
+        object["violation"] = found.violation;
+        list.append(object);
+    }
+    return list;
+}
+
+} // namespace
+
+void bind_designs(py::module_& module) {
+    py::class_<Design, std::shared_ptr<Design>>(module, "Design")
+        .def_static(
+            "parsed",
+            [](const std::string& text, const std::string& file) {
+                return std::make_shared<Design>(parse_design(text, file));
+            },
+            py::arg("text"), py::arg("file"), py::call_guard<py::gil_scoped_release>())
+        .def_readonly("name", &Design::name)
+        .def_readonly("text", &Design::text)
+        .def_readonly("source", &Design::source)
+        .def_readonly("control", &Design::control)
+        .def_property_readonly("inputs",
+                               [](const Design& self) {
+                                   return std::vector<std::string>{self.model_path, self.approach.study};
+                               })
+        .def_property_readonly("model", [](const Design& self) { return std::make_shared<HeldModel>(self.model); })
+        .def_property_readonly("dimensions", &dimensions_of)
+        .def("compute", &computed, py::arg("folder"), py::kw_only(), py::arg("threads"), py::arg("told"));
+    py::class_<ComputedDesign, std::shared_ptr<ComputedDesign>>(module, "ComputedDesign")
+        .def_property_readonly("name", [](const ComputedDesign& self) { return self.design().name; })
+        .def_property_readonly("control", [](const ComputedDesign& self) { return self.design().control; })
+        .def_property_readonly("dimensions", [](const ComputedDesign& self) { return dimensions_of(self.design()); })
+        .def_property_readonly("trip_value", [](const ComputedDesign& self) { return self.report().value; })
+        .def_property_readonly(
+            "outcome", [](const ComputedDesign& self) { return std::string(class_name(self.report().found.outcome)); })
+        .def_property_readonly("outcome_reason", [](const ComputedDesign& self) { return self.report().found.reason; })
+        .def_property_readonly("reset_value", [](const ComputedDesign& self) { return self.report().reset.value; })
+        .def_property_readonly("wishes",
+                               [](const ComputedDesign& self) {
+                                   return self.report().wishes
+                                              ? std::string(name_of(self.report().wishes->found.outcome))
+                                              : std::string();
+                               })
+        .def_property_readonly("wants", [](const ComputedDesign& self) { return found_wants_of(self.report()); })
+        .def_property_readonly("problems",
+                               [](const ComputedDesign& self) {
+                                   const auto& yield = self.report().yield;
+                                   return yield ? yield->problems : decltype(yield->problems)();
+                               })
+        .def_property_readonly("warnings", &ComputedDesign::warnings)
+        .def_property_readonly("table_names",
+                               [](const ComputedDesign& self) {
+                                   std::vector<std::string> names;
+                                   for (const NamedTable& one : self.tables())
+                                       names.push_back(one.name);
+                                   return names;
+                               })
+        .def("table", [](const ComputedDesign& self, std::size_t i) { return columns_of(self.tables().at(i).table); })
+        .def("csv", [](const ComputedDesign& self, std::size_t i) { return csv_text(self.tables().at(i).table); })
+        .def_property_readonly("json", &ComputedDesign::json)
+        .def_property_readonly("device_text", &ComputedDesign::device_text)
+        .def_property_readonly(
+            "device",
+            [](const ComputedDesign& self) { return std::make_shared<HeldModel>(model_of_device(self.trip())); })
+        .def_property_readonly("has_verilog_a",
+                               [](const ComputedDesign& self) { return has_verilog_a(model_of_device(self.trip())); })
+        .def("verilog_a",
+             [](const ComputedDesign& self) {
+                 return verilog_a_text(model_of_device(self.trip()), self.design().name, generator);
+             })
+        .def("figure", [](const ComputedDesign& self) {
+            return object_of(design_page(self.design(), self.trip(), self.report()));
+        });
+    module.def("shipped_designs", &shipped_designs);
+    module.def("shipped_design_text", &shipped_design_text);
+}
+
+} // namespace graze::python

@@ -1,0 +1,221 @@
+#include "graze/study/run_part.hpp"
+
+#include "graze/base/require.hpp"
+#include "graze/model/model_file.hpp"
+#include "graze/study/stored_study.hpp"
+#include "study/point_bytes.hpp"
+#include "study/run_record.hpp"
+#include "study/settings_fields.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace graze {
+
+namespace {
+
+/// The first bytes of parts and of points; they change with what follows.
+const std::string part_mark = "graze-part-1\n", points_mark = "graze-points-1\n";
+
+std::unique_ptr<SearchFactory> searches_of(const StudyRun& run, const System& system) {
+    const MotionRequest& motion = run.motion();
+    AttractorOptions attractor = motion.attractor;
+    attractor.stay_in_transients = run.kind == RunKind::sweep && motion.carry;
+    return seeks_attractors(run.kind)
+               ? attractor_searches(system, attractor, motion.samplings, run.values, motion.simulation)
+               : transient_searches(system, motion.transient, motion.samplings, run.values, motion.simulation);
+}
+
+/// A run and its start, as they are written.
+struct Written {
+    AskedRun asked;
+    std::string model; ///< text of its file
+    std::optional<PointRecord> start;
+};
+
+template <class Fields, class Run>
+void describe_written(Fields& fields, Run& run) {
+    describe_fields(fields, "version", run.asked.version, "name", run.asked.name, "kind", run.asked.kind, "model",
+                    run.model, "settings", run.asked.settings, "units", run.asked.units);
+    if (!fields.has("state", run.start.has_value()))
+        return;
+    if constexpr (Fields::reading)
+        run.start.emplace();
+    describe_fields(fields, "state", run.start->result.state, "mode", run.start->result.mode);
+}
+
+Written read_written(const std::string& text) {
+    const Place place{"part of a run", 0, 0};
+    const Json json = parse_json(text, place);
+    SettingsReader fields(json, nullptr, place);
+    Written run;
+    describe_written(fields, run);
+    if (run.asked.version != GRAZE_VERSION)
+        throw InputError(
+            place,
+            fmt::format("a part of a run of graze {} cannot be computed by graze {}", run.asked.version, GRAZE_VERSION),
+            "install the same version everywhere");
+    run.asked.file = place.file;
+    return run;
+}
+
+StudyRun run_of(const Written& written) {
+    Model model = parse_model(written.model, "model of a part of a run");
+    const bool fits = !written.start || (written.start->result.state.size() == model.states.size() &&
+                                         written.start->result.mode < model.modes.size());
+    if (!fits)
+        throw InputError("the start of a part of a run does not fit its model", "let it be written again");
+    StudyRun run = run_of(written.asked, std::move(model));
+    if (!run.has_motions())
+        throw InputError(fmt::format("a run of kind {} has no parts", name_of(run.kind)), "use a sweep or a basin");
+    return run;
+}
+
+template <class Bytes, class Result>
+void describe_result(Bytes& bytes, Result& result) {
+    bytes.choice(result.label, Label::failed);
+    bytes(result.period, result.duration, result.signature, result.symmetric, result.multipliers, result.residual,
+          result.lyapunov, result.lyapunov_error, result.cycles, result.periods_run, result.time, result.state,
+          result.mode);
+    bytes.choice(result.outcome.ending, Ending::step_limit);
+    bytes(result.outcome.time, result.outcome.detail, result.samples.width, result.samples.samplings,
+          result.samples.times, result.samples.values);
+}
+
+ByteReader after(std::string_view bytes, const std::string& mark) {
+    if (!bytes.starts_with(mark))
+        ByteReader::fail();
+    return ByteReader(bytes.substr(mark.size()));
+}
+
+/// The numbers of the points that a part consists of, in the order of the chains.
+std::vector<std::size_t> points_of(const RunPart& part, std::size_t chain_length) {
+    std::vector<std::size_t> points;
+    for (std::size_t chain = part.chains.first; chain < part.chains.last; ++chain)
+        for (std::size_t index = part.known.empty() ? 0 : part.known[chain - part.chains.first].done;
+             index < chain_length; ++index)
+            points.push_back(chain * chain_length + index);
+    return points;
+}
+
+} // namespace
+
+struct PartedRun::State {
+    State(const StudyRun& of_run, const PointRecord* from)
+        : run(of_run), start(from ? std::optional(*from) : std::nullopt), system(run.model),
+          plan(plan_of(run, system, from)), searches(searches_of(run, system)) {}
+
+    StudyRun run;
+    std::optional<PointRecord> start;
+    System system;
+    Plan plan;
+    std::unique_ptr<SearchFactory> searches;
+};
+
+PartedRun::PartedRun(const StudyRun& run, const PointRecord* start)
+    : state_(std::make_unique<const State>(run, start)) {}
+
+PartedRun::PartedRun(const std::string& text) {
+    const Written written = read_written(text);
+    state_ = std::make_unique<const State>(run_of(written), written.start ? &*written.start : nullptr);
+}
+
+PartedRun::~PartedRun() = default;
+
+std::string PartedRun::text() const {
+    const StudyRun& run = state_->run;
+    const Written written{
+        {run.name, std::string(name_of(run.kind)), settings_of(run), GRAZE_VERSION, {}, run.value_units},
+        write_model(run.model),
+        state_->start};
+    SettingsWriter fields;
+    describe_written(fields, written);
+    return fields.text();
+}
+
+const StudyRun& PartedRun::run() const {
+    return state_->run;
+}
+
+std::size_t PartedRun::chains() const {
+    return state_->plan.chains;
+}
+
+std::size_t PartedRun::chain_length() const {
+    return state_->plan.chain_length;
+}
+
+bool PartedRun::compute(ChainRange chains, std::span<const ChainProgress> known, const ExecutionOptions& options,
+                        const PointSink& sink) const {
+    require_room(this->chains(), chains.last, "chains of a part");
+    require_room(chains.last, chains.first, "chains before a part");
+    const Plan& whole = state_->plan;
+    const std::size_t before = chains.first * whole.chain_length;
+    Plan plan = whole;
+    plan.chains = chains.size();
+    plan.start = [&whole, before](std::size_t point) { return whole.start(before + point); };
+    return execute(plan, *state_->searches, known, options,
+                   [&](std::size_t point, const PointStart&, PointResult& result) { sink(before + point, result); });
+}
+
+std::string bytes_of(const RunPart& part) {
+    ByteWriter bytes;
+    bytes(part.chains.first, part.chains.last, part.known.size());
+    for (const ChainProgress& chain : part.known)
+        bytes(chain.done, chain.regular, chain.state, chain.mode);
+    return part_mark + bytes.take();
+}
+
+RunPart part_of(std::string_view bytes) {
+    ByteReader reader = after(bytes, part_mark);
+    RunPart part;
+    std::size_t known = 0;
+    reader(part.chains.first, part.chains.last, known);
+    if (part.chains.first > part.chains.last || (known > 0 && known != part.chains.size()))
+        ByteReader::fail();
+    for (std::size_t chain = 0; chain < known; ++chain) {
+        ChainProgress& one = part.known.emplace_back();
+        reader(one.done, one.regular, one.state, one.mode);
+    }
+    if (!reader.is_at_end())
+        ByteReader::fail();
+    return part;
+}
+
+std::string computed_points(const PartedRun& run, const RunPart& part, const std::function<bool()>& interrupted) {
+    for (const ChainProgress& chain : part.known)
+        if (chain.done > 0 &&
+            (chain.state.size() != run.run().model.states.size() || chain.mode >= run.run().model.modes.size()))
+            ByteReader::fail();
+    ExecutionOptions options;
+    options.interrupted = interrupted;
+    ByteWriter bytes;
+    const bool complete = run.compute(part.chains, part.known, options, [&](std::size_t point, PointResult& result) {
+        bytes(point);
+        describe_result(bytes, result);
+    });
+    return complete ? points_mark + bytes.take() : std::string();
+}
+
+void read_points(const PartedRun& run, const RunPart& part, std::string_view bytes, const PointSink& sink) {
+    if (part.chains.last > run.chains())
+        ByteReader::fail();
+    ByteReader reader = after(bytes, points_mark);
+    std::vector<std::pair<std::size_t, PointResult>> points;
+    while (!reader.is_at_end()) {
+        auto& [number, result] = points.emplace_back();
+        reader(number);
+        describe_result(reader, result);
+    }
+    // Chains alternate where they were computed side by side, in another way on each machine.
+    std::ranges::sort(points, {}, &std::pair<std::size_t, PointResult>::first);
+    if (!std::ranges::equal(points, points_of(part, run.chain_length()), {},
+                            &std::pair<std::size_t, PointResult>::first))
+        ByteReader::fail();
+    for (auto& [number, result] : points)
+        sink(number, result);
+}
+
+} // namespace graze
