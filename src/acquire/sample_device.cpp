@@ -35,6 +35,18 @@ template <class... Parts>
 
 } // namespace
 
+std::unique_ptr<InstrumentLine> open_sample_line(const Experiment& experiment, const Place& place) {
+    const InstrumentAddress address = device_address(experiment.device, place);
+    if (address.is_tcp)
+        return open_tcp_line(address.name, address.port);
+    SerialSettings settings;
+    settings.port = address.name;
+    settings.baud = experiment.sample_baud;
+    settings.stop_bits = StopBits::one;
+    settings.flow = FlowControl::none;
+    return open_serial_line(settings);
+}
+
 TextSampleDevice::TextSampleDevice(std::shared_ptr<InstrumentLine> line, double timeout,
                                    std::function<bool()> interrupted, double patience)
     : line_(required(std::move(line), "a line")), timeout_(timeout), patience_(patience),

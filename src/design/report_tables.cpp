@@ -1,6 +1,8 @@
 #include "base/enumerator_name.hpp"
 #include "base/special_numbers.hpp"
 #include "graze/design/design_report.hpp"
+#include "graze/results/json_object.hpp"
+#include "graze/results/table_text.hpp"
 #include "graze/sweep/attractor.hpp"
 
 #include <fmt/format.h>
@@ -303,6 +305,18 @@ std::vector<NamedTable> tables_of(const Design& design, const TripPoint& trip, c
     if (report.yield)
         tables.push_back({"devices", device_table(*report.yield, design.control, unit)});
     return tables;
+}
+
+std::string report_json(const Design& design, const std::vector<NamedTable>& tables, const std::string& version) {
+    JsonObject report;
+    report.add("graze", version);
+    report.add("design", design.name);
+    report.add("model", design.model.name);
+    report.add("control", design.control);
+    for (const NamedTable& table : tables)
+        if (!table.name.starts_with("plane-") && table.name != "devices")
+            report.add(table.name, json_rows(table.table));
+    return "{" + report.members() + "}\n";
 }
 
 } // namespace graze

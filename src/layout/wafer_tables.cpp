@@ -2,6 +2,8 @@
 
 #include "base/special_numbers.hpp"
 #include "graze/layout/lumped_model.hpp"
+#include "graze/results/json_object.hpp"
+#include "graze/results/table_text.hpp"
 
 #include <fmt/format.h>
 
@@ -101,6 +103,18 @@ Table wafer_fact_table(const WaferYield& found, const Model& model, const std::s
         facts.add("yield", yield.within->value, "", "share of all devices within what is wanted");
     add_times(facts, found, model.time_unit);
     return facts;
+}
+
+std::string wafer_report_json(const std::string& design, const WaferYieldSettings& settings, const Table& facts,
+                              const Table& devices, const std::string& version) {
+    JsonObject report;
+    report.add("graze", version);
+    report.add("design", design);
+    report.add("wafers", static_cast<double>(settings.wafers));
+    report.add("seed", static_cast<double>(settings.seed));
+    report.add("facts", json_rows(facts));
+    report.add("devices", json_rows(devices));
+    return "{" + report.members() + "}\n";
 }
 
 } // namespace graze

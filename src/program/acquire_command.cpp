@@ -52,18 +52,6 @@ void print_levels(const Experiment& experiment, const Console& console) {
     deliver(table, {}, {}, console);
 }
 
-std::unique_ptr<InstrumentLine> open_device(const Experiment& experiment) {
-    const InstrumentAddress address = device_address(experiment.device, Place{experiment.file, 0, 0});
-    if (address.is_tcp)
-        return open_tcp_line(address.name, address.port);
-    SerialSettings settings;
-    settings.port = address.name;
-    settings.baud = experiment.sample_baud;
-    settings.stop_bits = StopBits::one;
-    settings.flow = FlowControl::none;
-    return open_serial_line(settings);
-}
-
 /// Shows an acquisition while it runs: a line of progress and, with --live, a picture of the records.
 class AcquisitionDisplay {
 public:
@@ -136,8 +124,8 @@ AcquisitionReport run_experiment(const Experiment& experiment, RecordFolder& fol
     AcquisitionReport report;
     try {
         const auto generator = open_generator_line(experiment.serial);
-        TextSampleDevice device(open_device(experiment), experiment.sample_timeout, options.interrupted,
-                                experiment.sample_patience);
+        TextSampleDevice device(open_sample_line(experiment, Place{experiment.file, 0, 0}), experiment.sample_timeout,
+                                options.interrupted, experiment.sample_patience);
         report = acquire(experiment, *generator, device, folder, options);
     } catch (const InstrumentError& error) { // nothing has been sent to the generator yet
         report.ending = error.ending();

@@ -27,19 +27,6 @@ namespace graze {
 
 namespace {
 
-/// The report as JSON: all tables but the long ones, which have files of their own.
-std::string json_of(const Design& design, const std::vector<NamedTable>& tables) {
-    JsonObject report;
-    report.add("graze", GRAZE_VERSION);
-    report.add("design", design.name);
-    report.add("model", design.model.name);
-    report.add("control", design.control);
-    for (const NamedTable& table : tables)
-        if (!table.name.starts_with("plane-") && table.name != "devices")
-            report.add(table.name, json_rows(table.table));
-    return "{" + report.members() + "}\n";
-}
-
 int list_designs(const DesignArguments& arguments, const Console& console) {
     Table table({{"design", ""}, {"model", ""}, {"what it does", ""}});
     for (const std::string& name : shipped_designs()) {
@@ -164,7 +151,7 @@ void write_all(OutputFolder& place, const Design& first, const Design& design, c
     const std::vector<NamedTable> tables = tables_of(design, trip, report);
     for (const NamedTable& table : tables)
         place.write(table.name + ".csv", csv_text(table.table));
-    place.write(report_name, json_of(design, tables));
+    place.write(report_name, report_json(design, tables, GRAZE_VERSION));
     const Model device = model_of_device(trip);
     place.write(device_model_name, device_heading(first) + write_model(device));
     if (has_verilog_a(device))

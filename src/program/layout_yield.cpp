@@ -22,18 +22,6 @@ namespace graze {
 
 namespace {
 
-std::string yield_json(const DeviceFile& file, const WaferYieldSettings& settings, const Table& facts,
-                       const Table& devices) {
-    JsonObject report;
-    report.add("graze", GRAZE_VERSION);
-    report.add("design", file.name);
-    report.add("wafers", static_cast<double>(settings.wafers));
-    report.add("seed", static_cast<double>(settings.seed));
-    report.add("facts", json_rows(facts));
-    report.add("devices", json_rows(devices));
-    return "{" + report.members() + "}\n";
-}
-
 void draw_maps(const WaferYield& yield, const DeviceFile& file, const Design& design, const std::string& folder,
                std::size_t wafers, const Console& console, std::vector<std::string>& written) {
     WaferMapLabels labels;
@@ -101,7 +89,7 @@ int layout_yield(const LayoutArguments& arguments, const DeviceFile& file, const
     const Table devices = wafer_device_table(found, wafer, design.model, design.control);
     write_file(written[0], csv_text(facts));
     write_file(written[1], csv_text(devices));
-    write_file(written[2], yield_json(file, settings, facts, devices));
+    write_file(written[2], wafer_report_json(file.name, settings, facts, devices, GRAZE_VERSION));
     draw_maps(found, file, design, folder, settings.wafers, console, written);
     deliver(facts, arguments.output, {}, console);
     if (arguments.output.format == TableFormat::table)

@@ -22,16 +22,8 @@ namespace graze {
 namespace {
 
 std::string status_of(const RunReport& report) {
-    switch (report.outcome) {
-    case RunOutcome::interrupted:
-        return "interrupted";
-    case RunOutcome::failed:
-        return "failed";
-    case RunOutcome::skipped:
-        return "skipped";
-    case RunOutcome::complete:
-        break;
-    }
+    if (!report.complete())
+        return std::string(name_of(report.outcome));
     return report.computed == 0 ? "was there" : report.computed < report.points ? "gone on with" : "done";
 }
 
@@ -157,23 +149,19 @@ std::string text_of_values(const ParameterValues& set) {
     return text;
 }
 
-/// @throws InputError if the result file was made with other values of --set: one file holds results of one set only
+/// @throws InputError if the result file was made with other values of --set
 void require_same_values(const Study& study, const ResultFile& file) {
-    auto stored = stored_set(file);
-    if (!stored)
+    const auto other = other_set(study, file);
+    if (!other)
         return;
-    ParameterValues asked = study.set;
-    std::sort(stored->begin(), stored->end());
-    std::sort(asked.begin(), asked.end());
-    if (*stored == asked)
-        return;
-    const auto words = [](const ParameterValues& set) {
+    const auto words = [](ParameterValues set) {
+        std::ranges::sort(set);
         return set.empty() ? std::string("the study's own values") : text_of_values(set);
     };
-    throw InputError(
-        Place{file.path(), 0, 0},
-        fmt::format("the results there were made with {}, and those asked for are of {}", words(*stored), words(asked)),
-        "choose another folder by --output");
+    throw InputError(Place{file.path(), 0, 0},
+                     fmt::format("the results there were made with {}, and those asked for are of {}", words(*other),
+                                 words(study.set)),
+                     "choose another folder by --output");
 }
 
 /// Loads the study: a shipped one, one in a file, or the copy in a result file.

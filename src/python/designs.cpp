@@ -51,17 +51,7 @@ public:
     const std::vector<NamedTable>& tables() const { return tables_; }
     const TripPoint& trip() const { return *trip_; }
 
-    std::string json() const {
-        JsonObject report;
-        report.add("graze", GRAZE_VERSION);
-        report.add("design", design_.name);
-        report.add("model", design_.model.name);
-        report.add("control", design_.control);
-        for (const NamedTable& table : tables_)
-            if (!table.name.starts_with("plane-") && table.name != "devices")
-                report.add(table.name, json_rows(table.table));
-        return "{" + report.members() + "}\n";
-    }
+    std::string json() const { return report_json(design_, tables_, GRAZE_VERSION); }
     std::string device_text() const { return device_heading(first_) + write_model(model_of_device(*trip_)); }
 
     /// What the user should look at, in words; empty: the design is regular.

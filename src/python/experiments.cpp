@@ -230,18 +230,6 @@ const char* name_of(AcquisitionStage stage) {
     return "recording";
 }
 
-std::unique_ptr<InstrumentLine> open_device(const Experiment& experiment) {
-    const InstrumentAddress address = device_address(experiment.device, Place{"device", 0, 0});
-    if (address.is_tcp)
-        return open_tcp_line(address.name, address.port);
-    SerialSettings settings;
-    settings.port = address.name;
-    settings.baud = experiment.sample_baud;
-    settings.stop_bits = StopBits::one;
-    settings.flow = FlowControl::none;
-    return open_serial_line(settings);
-}
-
 /// An acquisition, whose report remains when it was interrupted.
 class HeldAcquisition {
 public:
@@ -299,7 +287,7 @@ private:
             if (bench)
                 line = std::make_shared<BenchSampleLine>(*bench);
             else
-                line = open_device(experiment_);
+                line = open_sample_line(experiment_, Place{"device", 0, 0});
             TextSampleDevice device(line, experiment_.sample_timeout, must_stop, experiment_.sample_patience);
             report_ = acquire(experiment_, *generator, device, folder, options);
         } catch (const InstrumentError& error) { // nothing has been sent to the generator yet

@@ -248,14 +248,10 @@ std::vector<std::pair<std::string, std::size_t>> problems_of(const MadeWafers& s
 }
 
 std::string json_of(const HeldLayout& layout, const MadeWafers& made, std::size_t count, std::uint64_t seed) {
-    JsonObject report;
-    report.add("graze", GRAZE_VERSION);
-    report.add("design", layout.file().name);
-    report.add("wafers", static_cast<double>(count));
-    report.add("seed", static_cast<double>(seed));
-    report.add("facts", json_rows(made.facts));
-    report.add("devices", json_rows(made.devices));
-    return "{" + report.members() + "}\n";
+    WaferYieldSettings settings;
+    settings.wafers = count;
+    settings.seed = seed;
+    return wafer_report_json(layout.file().name, settings, made.facts, made.devices, GRAZE_VERSION);
 }
 
 /// What the drawn device does, beside the designed one.

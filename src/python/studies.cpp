@@ -28,20 +28,6 @@ NamedModels named(const HeldModels& models) {
     return result;
 }
 
-std::string status_of(const RunReport& report) {
-    switch (report.outcome) {
-    case RunOutcome::interrupted:
-        return "interrupted";
-    case RunOutcome::failed:
-        return "failed";
-    case RunOutcome::skipped:
-        return "skipped";
-    case RunOutcome::complete:
-        break;
-    }
-    return "complete";
-}
-
 /// What is done, told by the threads that compute to the one that has called from Python.
 class ProgressNote {
 public:
@@ -105,7 +91,7 @@ py::list carried_out(const Study& study, ResultFile& file, int threads, const st
         object["points"] = report.points;
         object["computed"] = report.computed;
         object["seconds"] = report.seconds;
-        object["status"] = status_of(report);
+        object["status"] = std::string(name_of(report.outcome));
         object["problem"] = report.problem;
         object["remedy"] = report.remedy;
         object["labels"] = summary.labels;
@@ -136,25 +122,22 @@ py::list keys_of(const std::string& kind) {
     return list;
 }
 
-/// Refuses results of other values of parameters: one file holds results of one set only.
+/// Refuses results of other values of parameters.
 void require_same_values(const Study& study, const ResultFile& file) {
-    auto stored = stored_set(file);
-    ParameterValues asked = study.set;
-    if (!stored)
+    const auto other = other_set(study, file);
+    if (!other)
         return;
-    std::ranges::sort(*stored);
-    std::ranges::sort(asked);
-    const auto words = [](const ParameterValues& set) {
+    const auto words = [](ParameterValues set) {
+        std::ranges::sort(set);
         std::string text;
         for (const auto& [name, value] : set)
             text += (text.empty() ? "" : ", ") + name + " = " + py::str(py::float_(value)).cast<std::string>();
         return text.empty() ? std::string("the study's own values") : text;
     };
-    if (*stored != asked)
-        throw InputError(Place{file.path(), 0, 0},
-                         "the results there were made with " + words(*stored) + ", and those asked for are of " +
-                             words(asked),
-                         "choose another folder: output=\"FOLDER\"");
+    throw InputError(Place{file.path(), 0, 0},
+                     "the results there were made with " + words(*other) + ", and those asked for are of " +
+                         words(study.set),
+                     "choose another folder: output=\"FOLDER\"");
 }
 
 const StudyTable& table_named(const Study& study, const std::string& name) {

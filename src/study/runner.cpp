@@ -1,5 +1,6 @@
 #include "graze/study/runner.hpp"
 
+#include "base/enumerator_name.hpp"
 #include "base/turns.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/study/escape_rates.hpp"
@@ -23,6 +24,11 @@
 #include <set>
 
 namespace graze {
+
+std::string_view name_of(RunOutcome outcome) {
+    constexpr std::string_view names[] = {"complete", "interrupted", "failed", "skipped"};
+    return enumerator_name(names, outcome, "failed");
+}
 
 namespace {
 

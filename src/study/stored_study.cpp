@@ -183,6 +183,16 @@ std::optional<ParameterValues> stored_set(const ResultFile& file) {
     return study.set;
 }
 
+std::optional<ParameterValues> other_set(const Study& study, const ResultFile& file) {
+    auto stored = stored_set(file);
+    if (!stored)
+        return std::nullopt;
+    ParameterValues asked = study.set, sorted = *stored;
+    std::ranges::sort(sorted);
+    std::ranges::sort(asked);
+    return sorted == asked ? std::nullopt : stored;
+}
+
 Study stored_study(const ResultFile& file) {
     const Place place{file.path(), 0, 0};
     Study study;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "graze/acquire/experiment.hpp"
 #include "graze/acquire/instrument_line.hpp"
 #include "graze/record/samples.hpp"
 
@@ -31,6 +32,10 @@ public:
     virtual bool mark(std::uint64_t) { return false; }
     virtual bool return_to(std::uint64_t) { return false; }
 };
+
+/// Opens the line to the device of an experiment. @param place of its address, for messages
+/// @throws InputError for an address that is none, InstrumentError when the device cannot be reached
+std::unique_ptr<InstrumentLine> open_sample_line(const Experiment& experiment, const Place& place);
 
 /// A device with the text protocol of docs/experiment.md, over any line.
 class TextSampleDevice : public SampleDevice {

@@ -83,6 +83,10 @@ struct NamedTable {
 Table facts_of(const Design& design, const TripPoint& trip, const DesignReport& report);
 std::vector<NamedTable> tables_of(const Design& design, const TripPoint& trip, const DesignReport& report);
 
+/// Returns the report as JSON: all of these tables but the long ones, which have files of their own.
+/// @param version of graze
+std::string report_json(const Design& design, const std::vector<NamedTable>& tables, const std::string& version);
+
 /// Returns the model of a device at its trip value, with the touching orbit as initial state, for other commands.
 Model model_of_device(const TripPoint& trip);
 

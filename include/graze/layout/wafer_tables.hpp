@@ -16,4 +16,8 @@ Table wafer_device_table(const WaferYield& yield, const Layout& wafer, const Mod
 /// Returns the statistics with the columns quantity, value, unit, meaning.
 Table wafer_fact_table(const WaferYield& yield, const Model& model, const std::string& control, std::size_t wafers);
 
+/// Returns the report of a yield as JSON, from these two tables. @param design its name; @param version of graze
+std::string wafer_report_json(const std::string& design, const WaferYieldSettings& settings, const Table& facts,
+                              const Table& devices, const std::string& version);
+
 } // namespace graze

@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace graze {
@@ -39,6 +40,9 @@ enum class RunOutcome {
     failed,  ///< for example no orbit was found: `problem` says why, `remedy` what to do
     skipped, ///< a run that it needs failed
 };
+
+/// "complete", "interrupted", "failed" or "skipped".
+std::string_view name_of(RunOutcome outcome);
 
 /// The outcome of one run.
 struct RunReport {

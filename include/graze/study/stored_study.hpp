@@ -26,6 +26,9 @@ void store_study(const Study& study, ResultFile& file);
 /// Returns the values (Study::set) with which the study of a result file was read; none if the file has no study.
 /// @throws InputError when they cannot be read
 std::optional<ParameterValues> stored_set(const ResultFile& file);
+/// Returns the values (Study::set) with which a result file was made if they are others than those of a study: one file
+/// holds results of one set only.
+std::optional<ParameterValues> other_set(const Study& study, const ResultFile& file);
 /// Returns the study of a result file, which needs no other file.
 /// @throws InputError when something cannot be read
 Study stored_study(const ResultFile& file);
