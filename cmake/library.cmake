@@ -58,10 +58,9 @@ target_compile_features(graze PUBLIC cxx_std_20)
 target_include_directories(
     graze PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
 )
-target_link_libraries(
-    graze PRIVATE $<BUILD_INTERFACE:graze_options> fmt::fmt Threads::Threads SQLite::SQLite3 NLopt::nlopt Ceres::ceres
-                  $<BUILD_INTERFACE:graze_hdf5>
-)
+# All but HDF5, of which the Python module uses another form.
+set(GRAZE_LINKED fmt::fmt Threads::Threads SQLite::SQLite3 NLopt::nlopt Ceres::ceres)
+target_link_libraries(graze PRIVATE $<BUILD_INTERFACE:graze_options> ${GRAZE_LINKED} $<BUILD_INTERFACE:graze_hdf5>)
 set_target_properties(
     graze PROPERTIES LINKER_LANGUAGE CXX VERSION ${PROJECT_VERSION} SOVERSION
                      ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}

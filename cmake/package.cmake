@@ -28,6 +28,7 @@ include(CPack)
 
 # The Python module is a package of its own: `cpack --config CPackPythonConfig.cmake`.
 if(GRAZE_PYTHON)
+    math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
     file(
         CONFIGURE OUTPUT CPackPythonConfig.cmake @ONLY
         CONTENT [[
@@ -36,7 +37,7 @@ set(CPACK_PACKAGE_NAME python3-graze)
 set(CPACK_DEBIAN_PACKAGE_NAME python3-graze)
 set(CPACK_DEBIAN_PACKAGE_SECTION python)
 set(CPACK_INSTALL_CMAKE_PROJECTS "@PROJECT_BINARY_DIR@;graze;python;/")
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy (>= 1:1.24)")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3 (>= @Python3_VERSION_MAJOR@.@Python3_VERSION_MINOR@), python3 (<< @Python3_VERSION_MAJOR@.@next_minor@), python3-numpy (>= 1:1.24)")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-matplotlib")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-pandas, python3-xarray, python3-tqdm, python3-distributed, python3-mpi4py, graze")
 string(REGEX REPLACE "The program.*" "The module graze of Python 3, with models and studies of the literature."

@@ -7,25 +7,36 @@
 """
 
 from . import _graze
+from ._bench import Bench, BenchService, bench
+from ._branch import Branch, Curve, Ladder, Orbit
+from ._certificate import Certificate
+from ._chatter import Chatter
 from ._design import Design, design, design_text, designs
-from ._analyses import (Certificate, Chatter, CycleMap, Grazing, LocatedSolution, MapMotion, Tolerance, Trips,
-                        points)
 from ._errors import (Error, FileError, InputError, InstrumentError, InternalError, Interrupted, ModelError, OrderError,
                       RunFailed, StudyError, WorkersLost)
-from ._experiment import Acquisition, Bench, BenchService, Experiment, acquire, bench
+from ._estimates import Estimate, Estimates, coupling, decrement, impedance, restitution
+from ._experiment import Acquisition, Experiment, acquire
 from ._expressions import (Condition, Expression, acos, asin, atan, cos, cosh, erf, exp, expression, log, sin, sinh,
                            sqrt, symbols, tan, tanh)
-from ._layout import ComparedDevice, Layout, LumpedModel, Wafers, layout, mask_layers
-from ._model import Finding, Initial, Model, Parameters, load, models
-from ._motion import Motion, Simulation, simulate
+from ._grazing import CycleMap, Grazing, MapMotion
+from ._identification import Identification, Record
+from ._layout import ComparedDevice, Layout, LumpedModel, layout, mask_layers
+from ._model import Finding, Model, load, models
+from ._model_parts import (Definition, Event, Jump, Mode, Parameter, Quantity, Section, State, Symmetry, Transition,
+                           parameters, states)
+from ._model_values import Initial, Parameters
+from ._motion import Motion
 from ._plot import Figure
-from ._record import (Estimate, Estimates, HarmonicFit, MeasuredRecord, MeasuredRecords, PeriodFit, coupling, decrement,
-                      impedance, read_record, restitution)
-from ._runs import (Basin, Branch, Curve, Ensemble, Identification, Ladder, Orbit, Point, Record, Run, Study, Sweep, basin,
-                    curve, ensemble, follow, identify, ladder, orbit, read_results, record, run_study, studies, sweep)
+from ._point import Point
+from ._record import HarmonicFit, MeasuredRecord, MeasuredRecords, PeriodFit, read_record
+from ._run import Basin, Ensemble, Run, Sweep
+from ._runs import basin, curve, ensemble, follow, identify, ladder, orbit, record, sweep
+from ._simulation import Simulation, simulate
+from ._study import Study, points, read_results, run_study, studies
 from ._table import Table
-from ._written_model import (Definition, Event, Jump, Mode, Parameter, Quantity, Section, State, Symmetry, Transition,
-                             parameters, states)
+from ._tolerance import LocatedSolution, Tolerance
+from ._trips import Trips
+from ._wafers import Wafers
 
 __version__ = _graze.version
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, List, Tuple
+from typing import Any, Dict, List, Tuple
 
 import numpy
 from matplotlib.artist import Artist
@@ -13,9 +13,7 @@ from matplotlib.transforms import IdentityTransform
 
 from . import _graze
 from ._errors import InputError
-from ._plot import _shown
-
-_PER_INCH = 72
+from ._looks import PER_INCH, shown
 
 
 class Tics(Locator):
@@ -32,7 +30,7 @@ class Tics(Locator):
         axes = self.axis.axes
         horizontal = self.axis.axis_name == "x"
         box = axes.bbox
-        length = (box.width if horizontal else box.height) * _PER_INCH / axes.figure.dpi
+        length = (box.width if horizontal else box.height) * PER_INCH / axes.figure.dpi
         try:
             return _graze.tics(vmin, vmax, horizontal, length, self._font)
         except (InputError, ValueError):
@@ -78,7 +76,9 @@ class PointLabels(Artist):
     """Keeps the labels of a panel (annotations in `axes.texts`) where they overlap neither one another nor lines and
     symbols. It finds their places anew when the limits or the size of the axes have changed."""
 
-    def __init__(self, axes: Any, figure: Any, number: int, font: float, line: float, note: Any, legend: Any) -> None:
+    def __init__(self, axes: Any, figure: Any, number: int, count: int, font: float, line: float, note: Any,
+                 legend: Any) -> None:
+        """figure, number: the compiled figure and the number of its panel. count: of labels."""
         super().__init__()
         self._core, self._number, self._font = figure, number, font
         self._note, self._legend = note, legend
@@ -88,7 +88,7 @@ class PointLabels(Artist):
         self.set_in_layout(False)
         axes.add_artist(self)
         size = _graze.label_font * font
-        for _ in figure.panels()[number]["labels"]:
+        for _ in range(count):
             label = axes.annotate("", (0, 0), xytext=(0, 0), textcoords="offset points", ha="center", va="center",
                                   fontsize=size, annotation_clip=False, visible=False, zorder=4,
                                   arrowprops={"arrowstyle": "-", "linewidth": line, "color": "#606060", "shrinkA": 0,
@@ -96,13 +96,13 @@ class PointLabels(Artist):
             label.set_in_layout(False)
             self.labels.append(label)
 
-    def __getstate__(self) -> dict:  # the compiled figure is left behind, and labels stay where they are
+    def __getstate__(self) -> Dict[str, Any]:  # the compiled figure is left behind, and labels stay where they are
         return {**super().__getstate__(), "_core": None, "_legend": None, "_note": None}
 
     def _state(self) -> Tuple[Any, ...]:
         axes = self.axes
         box = axes.bbox
-        points = _PER_INCH / axes.figure.dpi
+        points = PER_INCH / axes.figure.dpi
         avoided = []
         if self._legend is not None and self._legend.axes is axes and self._legend.get_frame_on():
             legend = self._legend.get_window_extent()
@@ -131,7 +131,7 @@ class PointLabels(Artist):
             label.set_visible(False)
         for label, place in zip(self.labels, places["labels"]):
             label.set_text(place["text"].replace("$", r"\$"))
-            label.set_color(_shown(place["colour"]))
+            label.set_color(shown(place["colour"]))
             label.xy = place["at"]
             label.set_position(place["offset"])
             label._arrow_relpos = place["leader_end"]

@@ -3,159 +3,22 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
-from typing import Any, Callable, Dict, Iterator, List, Optional, Tuple
+from typing import Any, Callable, Dict, List, Optional, Tuple
 
 from . import _graze
-from ._errors import Error, FileError, InputError, Interrupted
-from ._keywords import toml_key, toml_value
+from ._arguments import number_of_threads
+from ._design_text import DesignText
+from ._errors import InputError, OrderError
+from ._facts import Facts
 from ._model import Model
-from ._output import OwnFolder, Replacement, empty_folder, write_file
-from ._progress import Progress, Stopped
+from ._output import Replacement, empty_folder, write_file
+from ._progress import Progress, attended
+from ._results import StoredFile
+from ._study import Study
 from ._table import Table
 
 
-def told_text(progress: Progress) -> Tuple[Optional[Callable[[str], None]], Callable[[], None]]:
-    """A function for the compiled part that is called with a text (None: nothing is told), and one that ends the telling.
-
-    progress: True shows a line of tqdm, where tqdm is installed; a function is called with the text, and stops the
-        computation where it returns False.
-    """
-    if progress is None or progress is False:
-        return None, _nothing
-    if progress is not True:
-        if not callable(progress):
-            raise TypeError(f"progress must be True or a function, not {type(progress).__name__}")
-        asked = progress
-
-        def tell(text: str) -> None:
-            if asked(text) is False:
-                raise Stopped
-
-        return tell, _nothing
-    try:
-        from tqdm.auto import tqdm
-    except ImportError:
-        return None, _nothing
-    bar = tqdm(bar_format="{desc} {elapsed}")
-
-    def show(text: str) -> None:
-        bar.set_description_str(text)
-
-    return show, bar.close
-
-
-def _nothing() -> None:
-    pass
-
-
-def number_of_threads(threads: Optional[int]) -> int:
-    """How many threads compute. None: as many as the process may use."""
-    from ._runs import _threads
-
-    return int(_threads(threads))
-
-
-class DesignText:
-    """The text of a design file, from a shipped design or a file, and what is changed of it."""
-
-    def __init__(self, design: Any, text: Any, keys: Dict[str, Any], called: str) -> None:
-        """keys: of design files; dicts in them change what they name, None takes a key away."""
-        self.called = called
-        self.folder = OwnFolder()
-        self._keys: Optional[List[str]] = None  # of each line; None: the text is that of a file
-        if design is not None and text is not None:
-            raise InputError(f"{called} was given a design and a text", "give one of them")
-        self.path = ""  # of the user's file
-        if text is not None:
-            self.file, self.text = "design.toml", _as_text(text, called)
-        elif design is not None:
-            self.file, self.text = self._read(design)
-        else:
-            self.file, self.text = "design.toml", ""
-        if keys or (design is None and text is None):
-            self._change({name[:-1] if name in ("yield_", "set_") else name: value for name, value in keys.items()})
-
-    def _read(self, design: Any) -> Tuple[str, str]:
-        try:
-            name = os.fspath(design)
-        except TypeError:
-            raise InputError(f"{self.called} was given a {type(design).__name__} as the design",
-                             "give the name of a shipped design, or a file") from None
-        if "/" not in name and not name.endswith(".toml"):
-            return name, str(_graze.shipped_design_text(name))
-        try:
-            with open(name, encoding="utf-8") as file:
-                self.path = name
-                return name, file.read()
-        except OSError as error:
-            raise FileError(f"the design '{name}' cannot be read: {error.strerror}",
-                            "name a file, or one of graze.designs()") from None
-        except UnicodeDecodeError:
-            raise FileError(f"the design '{name}' is no text in UTF-8", "name another file") from None
-
-    def _change(self, keys: Dict[str, Any]) -> None:
-        import tomllib
-
-        try:
-            given = tomllib.loads(self.text)
-        except tomllib.TOMLDecodeError:
-            return  # the library's reader says what is wrong, and where
-        lines: List[str] = []
-        self._keys = []
-        for name, value in _merged(given, keys).items():
-            if isinstance(value, Model):
-                value = self._model_file(value)
-            try:
-                lines.append(f"{toml_key(name)} = {toml_value(value, name)}")
-            except InputError as error:
-                raise InputError(error.problem, error.remedy, f"{self.called}, {name}") from None
-            self._keys.append(name)
-        self.text = "\n".join(lines) + "\n"
-
-    def _model_file(self, model: Model) -> str:
-        path = os.path.join(self.folder.path, f"{model.name or 'model'}.toml")
-        model.save(path)
-        return path
-
-    def told(self, error: Error) -> Error:
-        """An error with the place in the call instead of that in the text."""
-        if self._keys is None:
-            return error
-        for one in error.all:
-            if one.file == self.file:
-                known = 0 < one.line <= len(self._keys)
-                one.file = f"{self.called}, {self._keys[one.line - 1]}" if known else self.called
-                one.line = one.column = 0
-        return error
-
-    def read(self, reader: Callable[[str, str], Any]) -> Any:
-        """What a reader of the library makes of the text."""
-        try:
-            return reader(self.text, self.file)
-        except InputError as error:
-            raise self.told(error) from None
-
-
-def _as_text(text: Any, called: str) -> str:
-    if not isinstance(text, str):
-        raise InputError(f"{called} was given a {type(text).__name__} as text", "give a text")
-    return text
-
-
-def _merged(given: Any, changes: Any) -> Dict[str, Any]:
-    result = dict(given)
-    for name, value in changes.items():
-        if value is None:
-            result.pop(name, None)
-        elif isinstance(value, Mapping) and isinstance(result.get(name), dict):
-            result[name] = _merged(result[name], value)
-        else:
-            result[name] = value
-    return result
-
-
-class Design(Mapping):  # type: ignore[type-arg]
+class Design(Facts):
     """A designed switch: the device, and what is known about it.
 
     A mapping from the quantities of `facts` to their values: `found["trip_value"]`. Attributes:
@@ -171,7 +34,8 @@ class Design(Mapping):  # type: ignore[type-arg]
     dimensions. `tables` is a dict of all, by the names of the program's files.
 
     `device` is the device as a model at its trip value, whose initial state is on the orbit that touches; `results` are
-    the branches that lead there; `report` is the report as JSON.
+    the branches that lead there; `report` is the report as JSON. Designs can be copied and pickled, with all but what
+    draws them.
     """
 
     def __init__(self, core: Any, inputs: List[Tuple[str, str]], source: DesignText) -> None:
@@ -184,6 +48,7 @@ class Design(Mapping):  # type: ignore[type-arg]
         self.dimensions = {one["name"]: one["value"] for one in core.dimensions}
         self.tables = {name: Table(*core.table(i)) for i, name in enumerate(core.table_names)}
         self.facts = self.tables["facts"]
+        super().__init__(self.facts["quantity"], self.facts["value"])
         self.sensitivities, self.earlier = self.tables.get("sensitivities"), self.tables.get("earlier")
         self.trip_times = self.tables.get("trip-times")
         self.tuning, self.devices = self.tables.get("tuning"), self.tables.get("devices")
@@ -191,18 +56,6 @@ class Design(Mapping):  # type: ignore[type-arg]
         self.curves = {name: self.tables[f"curve-{name}"] for name in names if f"curve-{name}" in self.tables}
         self.planes = {(one, other): self.tables[f"plane-{one}-{other}"] for one in names for other in names
                        if f"plane-{one}-{other}" in self.tables}
-
-    def __getitem__(self, quantity: str) -> Any:
-        try:
-            return self.facts["value"][self.facts["quantity"].index(quantity)]
-        except ValueError:
-            raise KeyError(f"there is no fact {quantity!r}; there are {', '.join(self)}") from None
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.facts["quantity"])
-
-    def __len__(self) -> int:
-        return len(self.facts)
 
     @property
     def regular(self) -> bool:
@@ -224,17 +77,14 @@ class Design(Mapping):  # type: ignore[type-arg]
     @property
     def device(self) -> Model:
         """The device as a model at its trip value, whose initial state is on the orbit that touches."""
-        return Model._of(self._core.device)
+        return Model(text=self._core.device_text)
 
     @property
-    def results(self) -> Any:
+    def results(self) -> Study:
         """The branch on which the device comes to its trip point, as a `graze.Study`."""
-        from ._runs import Study
-
         designed = os.path.join(self._folder.path, "designed.sqlite")
-        study: Any = Study(designed if os.path.exists(designed) else os.path.join(self._folder.path, "results.sqlite"))
-        study._folder = self._folder
-        return study
+        path = designed if os.path.exists(designed) else os.path.join(self._folder.path, "results.sqlite")
+        return Study(path, _store=StoredFile(path, self._folder))
 
     @property
     def report(self) -> str:
@@ -292,6 +142,9 @@ class Design(Mapping):  # type: ignore[type-arg]
             with Replacement(path(name), self._inputs) as temporary:
                 page.savefig(temporary)
 
+    def __getstate__(self) -> Dict[str, Any]:
+        return {**vars(self), "_core": _Kept(self._core)}
+
     def __repr__(self) -> str:
         values = ", ".join(f"{name} {value:.6g}" for name, value in self.dimensions.items())
         wishes = f"; wishes {self.wishes}" if self.wishes else ""
@@ -302,8 +155,8 @@ class Design(Mapping):  # type: ignore[type-arg]
         return f"<b>{self.name}</b>{self.facts._repr_html_()}"
 
 
-def design(design: Any = None, *, text: Optional[str] = None, threads: Optional[int] = None, progress: Progress = None,
-           **keys: Any) -> Design:
+def design(design: Any = None, *, text: Optional[str] = None, threads: Optional[int] = None, executor: Any = None,
+           progress: Progress = None, **keys: Any) -> Design:
     """Designs a switch: finds dimensions that meet a list of wishes, and writes up what the device does.
 
     design: the name of a shipped design (`graze.designs()`), or a design file; or text: the text of such a file.
@@ -314,24 +167,47 @@ def design(design: Any = None, *, text: Optional[str] = None, threads: Optional[
             graze.design("mems-switch", wanted={"value": 0.25}, yield_={"devices": 500})
 
     threads: how many (as many as the machine has); results do not depend on it.
+    executor: a concurrent.futures.Executor whose workers solve for the devices that are made with the tolerances, in place
+        of threads; the results are the same.
     progress: True for a line that tells what is done, or a function of that text.
 
     Returns a Design. Raises InputError for a design that has a mistake (`all` lists all of them), and where no trip point
-    is found; Interrupted after Ctrl-C. Wishes that cannot be met are no error: see `Design.wishes` and `warnings`.
+    is found; Interrupted after Ctrl-C; WorkersLost of an executor. Wishes that cannot be met are no error: see
+    `Design.wishes` and `warnings`.
     """
+    from ._executors import handed_out
+
     source = DesignText(design, text, keys, "design()")
     read = source.read(_graze.Design.parsed)
     inputs = [("the design, or what it reads,", path) for path in (source.path, *read.inputs)]
-    told, close = told_text(progress)
     try:
-        core = read.compute(source.folder.path, threads=number_of_threads(threads), told=told)
-    except KeyboardInterrupt:
-        raise Interrupted() from None
+        with attended(progress, "text") as told, handed_out(executor, told) as (parts, look):
+            core = read.compute(source.folder.path, threads=number_of_threads(threads), told=look, parts=parts)
     except InputError as error:
         raise source.told(error) from None
-    finally:
-        close()
     return Design(core, inputs, source)
+
+
+class _Kept:
+    """What a copy of a design has in place of its compiled part."""
+
+    def __init__(self, core: Any) -> None:
+        self.wants, self.json, self.device_text = core.wants, core.json, core.device_text
+        self.has_verilog_a = core.has_verilog_a
+        self._verilog_a: str = core.verilog_a() if core.has_verilog_a else ""
+        self.table_names = core.table_names
+        self._tables: List[str] = [core.csv(i) for i in range(len(core.table_names))]
+
+    def csv(self, table: int) -> str:
+        return self._tables[table]
+
+    def verilog_a(self) -> str:
+        if not self.has_verilog_a:
+            raise InputError("Verilog-A cannot express this model", "the design itself tells why")
+        return self._verilog_a
+
+    def figure(self) -> Any:
+        raise OrderError("what draws a design is not kept in copies of it", "draw the design that was computed")
 
 
 def designs() -> Dict[str, str]:

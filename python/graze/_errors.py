@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, List, Tuple
+from typing import Any, Callable, List, Optional, Tuple
 
 
 class Error(Exception):
@@ -49,6 +49,10 @@ class InputError(Error, ValueError):
     """What was given cannot be used: a text, an argument, a record."""
 
 
+class WrongType(InputError, TypeError):
+    """An argument is of a type that cannot be used."""
+
+
 class ModelError(InputError):
     """A model has a mistake."""
 
@@ -63,8 +67,17 @@ class FileError(InputError, OSError):
     __str__ = Error.__str__  # OSError has one of its own
 
 
-class InstrumentError(Error):
-    """An instrument does not do what it should."""
+class _WithRun(Error):
+    """An error that has what was computed, or recorded, until then."""
+
+    run: Any = None
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return (*super().__reduce__(), {"run": self.run})
+
+
+class InstrumentError(_WithRun):
+    """An instrument does not do what it should. `run` has the records that are there, where there are some."""
 
 
 class OrderError(Error):
@@ -75,23 +88,20 @@ class InternalError(Error):
     """The library contradicts itself: please report it."""
 
 
-class RunFailed(Error):
+class RunFailed(_WithRun):
     """A run has ended without a result, as when no periodic orbit was found. `run` has what was computed."""
 
-    run: Any = None
 
-
-class WorkersLost(Error):
-    """The executor that computes a run has lost its workers, or takes no work. `run` has what was computed; its `resume`
-    goes on, with another executor or without one."""
-
-    run: Any = None
+class WorkersLost(_WithRun):
+    """The executor that computes a run or a yield has lost its workers, or takes no work. `run` has what was computed; the
+    `resume` of a run goes on, with another executor or without one."""
 
 
 class Interrupted(KeyboardInterrupt):
     """Computing was interrupted, by Ctrl-C or by a function `progress` that returned False.
 
-    Attributes: `run` has what was computed until then, a run (whose file can be continued) or a motion; None: nothing.
+    Attributes: `run` has what was computed until then, a run (whose file can be continued), a motion or another result;
+    None: nothing.
     `motion` is the same.
     """
 
@@ -121,5 +131,17 @@ def as_kind(error: InputError, kind: type) -> Error:
     if isinstance(error, FileError):
         return error
     result: Error = kind(error.problem, error.remedy, error.file, error.line, error.column)
-    result.all += [as_kind(one, kind) for one in error.all[1:]]
+    result.all += [as_kind(one, kind) if isinstance(one, InputError) else one for one in error.all[1:]]
     return result
+
+
+def relocated(error: Any, place_of: Callable[[Error], Optional[str]], words: Callable[[str], str] = str) -> Any:
+    """An error whose mistakes have another place, such as an argument of a call in place of a line of the text that was
+    made of it. place_of: the place of a mistake; None: it stays as it is. words: other words for problems and remedies.
+    Returns the error."""
+    for one in error.all:
+        one.problem, one.remedy = words(one.problem), words(one.remedy)
+        place = place_of(one)
+        if place is not None:
+            one.file, one.line, one.column = place, 0, 0
+    return error

@@ -1,4 +1,5 @@
-"""Runs computed by executors: parts of them are given to the workers, whose points come back as bytes."""
+"""Work computed by executors: parts of it, as points of runs or devices of yields, are given to the workers, and what they
+compute comes back as bytes."""
 
 from __future__ import annotations
 
@@ -7,32 +8,34 @@ import queue
 import time
 from collections import deque
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future
+from contextlib import contextmanager
 from functools import lru_cache
-from typing import Deque, Dict, List, Optional, Tuple
+from typing import Any, Deque, Dict, Iterator, List, Optional, Tuple
 
 from . import _graze
 from ._errors import Error, InputError, WorkersLost
+from ._progress import Told
 
 WANTED = 0.5  # seconds that a part is to take
-FEWEST = 5  # near the end of a run, parts are smaller by this factor at most
+FEWEST = 5  # near the end, parts are smaller by this factor at most
 GROWTH = 8  # the next part is larger by this factor at most than those whose duration is known
 ATTEMPTS = 4  # at a part whose worker is lost
 
 
 @lru_cache(maxsize=4)
-def _run_of(text: bytes) -> _graze.PartedRun:
-    return _graze.PartedRun(text)
+def _worker_of(text: bytes) -> _graze.PartWorker:
+    return _graze.PartWorker(text)
 
 
 def computed_part(text: bytes, part: bytes, attempt: int) -> Tuple[float, bytes]:
-    """What workers do: the seconds that it took, and the points of a part as bytes.
+    """What workers do: the seconds that it took, and what was computed for a part, as bytes.
 
     attempt: counts from 0; it makes a repeated task another one for executors that know a task by its arguments.
     """
-    run = _run_of(text)
+    worker = _worker_of(text)
     begun = time.perf_counter()
-    points = run.computed(part)
-    return time.perf_counter() - begun, points
+    result = worker.computed(part)
+    return time.perf_counter() - begun, result
 
 
 def number_of_workers(executor: Executor) -> int:
@@ -46,28 +49,29 @@ def number_of_workers(executor: Executor) -> int:
 
 
 class _Part:
-    """Chains `first` to `last` - 1 of an open run."""
+    """Items `first` to `last` - 1 of open work."""
 
-    def __init__(self, run: _OpenRun, first: int, last: int, content: bytes):
-        self.run = run
+    def __init__(self, work: _OpenWork, first: int, last: int, content: bytes):
+        self.work = work
         self.first = first
         self.last = last
         self.content = content
         self.attempt = 0
 
 
-class _OpenRun:
-    """A run that waits for its points. It is cut into parts as workers become free: the first ones are small, later
-    ones take about WANTED seconds, and the last ones less, so that all workers end together."""
+class _OpenWork:
+    """Work that waits for its items: a run for its chains, or a yield for its devices. It is cut into parts as workers
+    become free: the first ones are small, later ones take about WANTED seconds, and the last ones less, so that all workers
+    end together."""
 
     def __init__(self, number: int, text: bytes, ranges: List[Tuple[int, int]]):
         self.number = number
         self.text = text
         self.ranges = deque(ranges)
-        self.left = sum(last - first for first, last in ranges)  # chains that are in no part
-        self.open = self.left  # chains whose points have not come
+        self.left = sum(last - first for first, last in ranges)  # items that are in no part
+        self.open = self.left  # items that have not come
         self.seconds = 0.0
-        self.timed = 0  # chains that have taken so long
+        self.timed = 0  # items that have taken so long
         self.largest = 0
 
     def note(self, part: _Part, seconds: float) -> None:
@@ -77,9 +81,9 @@ class _OpenRun:
         self.largest = max(self.largest, part.last - part.first)
 
     def size(self, workers: int) -> int:
-        """Chains of the next part."""
+        """Items of the next part."""
         if not self.timed:
-            return 1  # a chain may take minutes
+            return 1  # an item may take minutes
         wanted = WANTED * self.timed / max(self.seconds, 1e-6)
         size = int(min(wanted, max(self.left / (2 * workers), wanted / FEWEST), GROWTH * self.largest))
         if size > _graze.PartExchange.together:
@@ -87,7 +91,7 @@ class _OpenRun:
         return max(1, min(size, self.ranges[0][1] - self.ranges[0][0]))
 
     def cut(self, workers: int) -> Tuple[int, int]:
-        """Chains of the next part: the first one, and the one after the last."""
+        """Items of the next part: the first one, and the one after the last."""
         first, last = self.ranges[0]
         end = first + self.size(workers)
         if end < last:
@@ -98,20 +102,25 @@ class _OpenRun:
         return first, end
 
 
+def check_executor(executor: Executor) -> None:
+    """Raises InputError for what is no executor."""
+    if not callable(getattr(executor, "submit", None)):
+        raise InputError(f"executor is of type {type(executor).__name__}, which cannot be given work",
+                         "give a concurrent.futures.Executor, as a ProcessPoolExecutor or client.get_executor()")
+
+
 class Parts:
-    """Has the points of runs computed by an executor, while the compiled part carries out a study with `exchange`.
+    """Has items of work computed by an executor, while the compiled part carries it out with `exchange`.
 
     `look` is to be called now and then by the thread that has called from Python: all that is done with the executor is
     done there. `close` ends it: what waits is cancelled, and what is finished has been kept.
     """
 
     def __init__(self, executor: Executor):
-        if not callable(getattr(executor, "submit", None)):
-            raise InputError(f"executor is of type {type(executor).__name__}, which cannot be given work",
-                             "give a concurrent.futures.Executor, as a ProcessPoolExecutor or client.get_executor()")
+        check_executor(executor)
         self.exchange = _graze.PartExchange()
         self._executor = executor
-        self._runs: Dict[int, _OpenRun] = {}
+        self._works: Dict[int, _OpenWork] = {}
         self._going: Dict[Future, _Part] = {}
         self._ended: queue.SimpleQueue[Future] = queue.SimpleQueue()  # filled by threads of the executor
         self._again: Deque[_Part] = deque()  # whose worker was lost
@@ -121,7 +130,7 @@ class Parts:
     def look(self) -> None:
         """Takes what has come and hands out more."""
         for number, text, ranges in self.exchange.opened():
-            self._runs[number] = _OpenRun(number, text, ranges)
+            self._works[number] = _OpenWork(number, text, ranges)
         while True:
             try:
                 self._take(self._ended.get_nowait())
@@ -138,29 +147,29 @@ class Parts:
         part = self._going.pop(future, None)
         if part is None:
             return
-        run = part.run
+        work = part.work
         try:
-            seconds, points = future.result()
+            seconds, result = future.result()
         except Error as error:
-            self._runs.pop(run.number, None)
-            self.exchange.fail(run.number, error.problem, error.remedy, error.file, error.line, error.column)
+            self._works.pop(work.number, None)
+            self.exchange.fail(work.number, error.problem, error.remedy, error.file, error.line, error.column)
         except BrokenExecutor as error:
             raise self._broken(error) from error
         except (Exception, CancelledError) as error:
             part.attempt += 1
             if part.attempt >= ATTEMPTS:
                 raise WorkersLost(
-                    f"a part of the run was given to workers {ATTEMPTS} times and came back without a result: "
+                    f"a part of the work was given to workers {ATTEMPTS} times and came back without a result: "
                     f"{type(error).__name__}: {error}",
                     "look at what the workers print: each has to import the same version of graze, and needs memory for "
                     "a part") from error
             self._again.append(part)
         else:
-            if run.number in self._runs:
-                self.exchange.give(run.number, part.content, points)
-                run.note(part, seconds)
-                if run.open == 0:
-                    del self._runs[run.number]
+            if work.number in self._works:
+                self.exchange.give(work.number, part.first, part.last, result)
+                work.note(part, seconds)
+                if work.open == 0:
+                    del self._works[work.number]
 
     def _broken(self, error: Exception) -> WorkersLost:
         return WorkersLost(f"the executor lost a worker and does nothing more: {error}",
@@ -176,19 +185,19 @@ class Parts:
         """The next part that is to be computed; None: all are given out."""
         while self._again:
             part = self._again.popleft()
-            if part.run.number in self._runs:
+            if part.work.number in self._works:
                 return part
-        for run in self._runs.values():
-            if run.ranges:
-                first, last = run.cut(self._workers)
-                content = self.exchange.part(run.number, first, last)
+        for work in self._works.values():
+            if work.ranges:
+                first, last = work.cut(self._workers)
+                content = self.exchange.part(work.number, first, last)
                 if content:
-                    return _Part(run, first, last, content)
-                run.ranges.clear()  # it was closed meanwhile
+                    return _Part(work, first, last, content)
+                work.ranges.clear()  # it was closed meanwhile
         return None
 
     def _submit(self) -> None:
-        if not self._again and not any(run.ranges for run in self._runs.values()):
+        if not self._again and not any(work.ranges for work in self._works.values()):
             return
         self._count_workers()
         while len(self._going) < 2 * self._workers + 1:
@@ -196,10 +205,30 @@ class Parts:
             if part is None:
                 return
             try:
-                future = self._executor.submit(computed_part, part.run.text, part.content, part.attempt)
+                future = self._executor.submit(computed_part, part.work.text, part.content, part.attempt)
             except BrokenExecutor as error:
                 raise self._broken(error) from error
             except RuntimeError as error:  # after its shutdown
                 raise WorkersLost(f"the executor takes no work: {error}", "use it before its shutdown") from error
             self._going[future] = part
             future.add_done_callback(self._ended.put)
+
+
+@contextmanager
+def handed_out(executor: Optional[Executor], told: Told) -> Iterator[Tuple[Optional[_graze.PartExchange], Told]]:
+    """What the compiled part is given while it carries out work, of which an executor computes what can be computed in
+    parts: the exchange of parts, and the function that it calls as it goes on. Without an executor None, and `told`."""
+    if executor is None:
+        yield None, told
+        return
+    parts = Parts(executor)
+
+    def look(*state: Any) -> None:
+        parts.look()
+        if told:
+            told(*state)
+
+    try:
+        yield parts.exchange, look
+    finally:
+        parts.close()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from typing import Any, List, TYPE_CHECKING, Tuple, Union
+from typing import Any, List, TYPE_CHECKING, Union
 
 from . import _graze
 from ._errors import InputError

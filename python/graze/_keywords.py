@@ -6,10 +6,10 @@ from __future__ import annotations
 import os
 import re
 from functools import lru_cache
-from typing import Any, Callable, Iterable, TypeVar
+from typing import Any, Callable, Dict, Iterable, List, Optional, Tuple, TypeVar
 
 from . import _graze
-from ._errors import Error, InputError, StudyError, as_kind
+from ._errors import Error, InputError, StudyError, as_kind, relocated
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -75,7 +75,7 @@ def _name(key: Any, path: str) -> str:
 
 
 @lru_cache(maxsize=None)
-def keys_of(kind: str) -> dict:
+def keys_of(kind: str) -> Dict[str, Any]:
     """The keys that runs of a kind have, in their order: name -> description."""
     return {key["name"]: key for key in _graze.study_keys(kind)}
 
@@ -92,16 +92,17 @@ def variation(value: Any, path: str) -> Any:
 class RunText:
     """The text of one run in a study, and which key each of its lines is about.
 
-    keys: as the study has them; runs, models and files are named by texts. folder: where files are looked for.
+    keys: as the study has them; runs, models and files are named by texts. folder: where files are looked for; an
+    OwnFolder lives as long as the text.
     """
 
-    def __init__(self, name: str, kind: str, keys: dict, folder: str = ""):
+    def __init__(self, name: str, kind: str, keys: Dict[str, Any], folder: Any = "") -> None:
         self.name = name
         self.kind = kind
         self.folder = folder
         self.given = {key: value for key, value in keys.items() if value is not None}
         lines = [f"[runs.{toml_key(name)}]", f'kind = "{kind}"']
-        self.keys = [None, None]
+        self.keys: List[Optional[str]] = [None, None]
         for key, value in self.given.items():
             if key == "vary" and hasattr(value, "items"):
                 value = {one: variation(item, f"vary.{one}") for one, item in value.items()}
@@ -109,16 +110,16 @@ class RunText:
             self.keys.append(key)
         self.text = "\n".join(lines) + "\n"
 
-    def needs(self) -> list:
+    def needs(self) -> List[str]:
         """Names of the runs that this one goes on from, or whose results it uses."""
-        start = self.given.get("start")
+        start: Any = self.given.get("start")
         names = [start["run"]] if hasattr(start, "items") and "run" in start else []
         for key in ("parameters", "records"):
             some = self.given.get(key, [])
             names += [some] if isinstance(some, str) else list(some)
         return names
 
-    def renamed(self, name: str, runs: dict, model: Any) -> "RunText":
+    def renamed(self, name: str, runs: Dict[str, Any], model: Any) -> RunText:
         """The same run under another name, with other names of the runs that it needs, and of its model."""
         keys = dict(self.given)
         if "model" in keys:
@@ -130,7 +131,7 @@ class RunText:
                 keys[key] = runs[keys[key]] if isinstance(keys[key], str) else [runs[one] for one in keys[key]]
         return RunText(name, self.kind, keys, self.folder)
 
-    def __reduce__(self):
+    def __reduce__(self) -> Tuple[Any, ...]:
         return RunText, (self.name, self.kind, self.given, self.folder)
 
 
@@ -150,7 +151,7 @@ _WORDS = (
 class CallText:
     """One run as the text of a study, for which mistakes are told as those of a call."""
 
-    def __init__(self, run: RunText, called: str):
+    def __init__(self, run: RunText, called: str) -> None:
         self.run = run
         self.called = called
         self.file = os.path.join(run.folder, called)  # files are looked for beside it
@@ -172,12 +173,8 @@ class CallText:
 
     def told(self, error: Error) -> Error:
         """An error with the place in the call instead of that in the text."""
-        result = as_kind(error, StudyError) if isinstance(error, InputError) else error
-        for one in result.all:
-            one.problem, one.remedy = self.words(one.problem), self.words(one.remedy)
-            if one.file == self.file:
-                one.file = self._where(one.line)
-                one.line = one.column = 0
+        result: Error = relocated(as_kind(error, StudyError) if isinstance(error, InputError) else error,
+                                  lambda one: self._where(one.line) if one.file == self.file else None, self.words)
         return result
 
 
@@ -195,7 +192,7 @@ def _python_form(form: str) -> str:
     return form.replace("{ ", "{").replace(" }", "}")
 
 
-def _described(key: dict) -> str:
+def _described(key: Dict[str, Any]) -> str:
     words = _FORMS.get(key["type"]) or _TYPES.get(key["type"], ("", _python_form(key["type"])))[1]
     if key["words"]:
         words += " " + ", ".join(repr(one) for one in key["words"])
@@ -228,7 +225,9 @@ class RunFunction:
     """A function, or a method, that carries out a run and takes its keys as keyword arguments. Its signature and its
     documentation list these keys; both are made when somebody asks for them."""
 
-    def __init__(self, function: Callable, kind: str, hidden: Iterable[str] = ()):
+    __qualname__: str
+
+    def __init__(self, function: Callable[..., Any], kind: str, hidden: Iterable[str] = ()) -> None:
         for name in ("__module__", "__name__", "__qualname__"):
             setattr(self, name, getattr(function, name))
         self.__wrapped__ = function
@@ -236,24 +235,24 @@ class RunFunction:
         self._hidden = {"kind", "model", *hidden}
         self._text = function.__doc__ or ""
 
-    def __call__(self, *arguments, **keys):
+    def __call__(self, *arguments: Any, **keys: Any) -> Any:
         return self.__wrapped__(*arguments, **keys)
 
-    def __get__(self, instance, owner=None):
+    def __get__(self, instance: Any, owner: Any = None) -> Any:
         if instance is None:
             return self
         from types import MethodType
 
         return MethodType(self, instance)
 
-    def __reduce__(self):
+    def __reduce__(self) -> str:
         return self.__qualname__
 
-    def _keys(self) -> list:
+    def _keys(self) -> List[Dict[str, Any]]:
         return [key for name, key in keys_of(self._kind).items() if name not in self._hidden]
 
     @property
-    def __doc__(self):
+    def __doc__(self) -> str:  # type: ignore[override]
         indent = " " * 4
         if "." in self.__qualname__:
             indent *= 2
@@ -261,10 +260,10 @@ class RunFunction:
         return "\n".join([self._text.rstrip(), "", f"{indent}Keys of runs of kind {self._kind!r}:", "", *lines, ""])
 
     @property
-    def __signature__(self):
+    def __signature__(self) -> Any:
         import inspect
 
-        def default(key):
+        def default(key: Any) -> Any:
             kind = {"number": float, "whole number": int}.get(key["type"])
             try:
                 return kind(key["standard"]) if kind else {"true": True, "false": False}.get(key["standard"])
@@ -285,7 +284,7 @@ class RunFunction:
             shown.append(inspect.Parameter("followed", inspect.Parameter.VAR_KEYWORD))
         return own.replace(parameters=shown)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<function {self.__module__}.{self.__qualname__}>"
 
 

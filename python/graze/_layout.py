@@ -1,19 +1,21 @@
-"""From a design to masks: drawings of switches, their rules, the model of what is etched, and wafers of devices."""
+"""From a design to masks: drawings of switches, their rules, and the model of what is etched."""
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Mapping
-from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Tuple, Union
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple, Union
 
-from . import _graze
-from ._design import Design, DesignText, number_of_threads, told_text
-from ._errors import InputError, Interrupted
+from . import _arguments as checked, _graze
+from ._design import Design
+from ._design_text import DesignText
+from ._errors import Error, InputError, Interrupted, relocated
+from ._facts import Facts
 from ._model import Model
-from ._output import OwnFolder, Replacement, empty_folder, write_file
-from ._progress import Progress
+from ._output import OwnFolder, Replacement, write_file
+from ._progress import Progress, attended
 from ._table import Table
+from ._wafers import Wafers
 
 _PICTURES = (".svg", ".png", ".pdf")
 _COLOURS = {(1, 0): "#9ecae1", (2, 0): "#fdae6b", (10, 0): "#3182bd", (10, 1): "#31a354", (10, 2): "#74c476",
@@ -52,7 +54,7 @@ class ComparedDevice(NamedTuple):
     parameters: str
 
 
-class Layout:
+class Layout(Facts):
     """A drawn device, or a wafer of them.
 
     `table` has what is measured on the drawing, and the model of the etched device; `layout["gap"]` is one of its values
@@ -60,16 +62,19 @@ class Layout:
     that do not, in words. `lumped` is the etched device's model in SI units, `parameters` a dict of the parameters that it
     gives to the model of the design, and `device` that model with them.
 
-    `save(path)` writes masks, pictures and texts; `wafers(count)` makes wafers of devices by simulation.
+    `save(path)` writes masks, pictures and texts; `wafers(count)` makes wafers of devices by simulation. Layouts can be
+    copied and pickled: a copy is drawn anew.
     """
 
     def __init__(self, core: Any, source: DesignText, inputs: List[Tuple[str, str]], options: List[str],
-                 wafer: bool) -> None:
-        self._core, self._source, self._inputs, self._options = core, source, inputs, options
+                 asked: Tuple[Dict[str, Any], bool, Any]) -> None:
+        """asked: `set`, `wafer` and the folder of the designed device (None: none)."""
+        self._core, self._source, self._inputs, self._options, self._asked = core, source, inputs, options, asked
         self.name: str = core.name
         self.top: str = core.top
-        self.is_wafer = wafer
+        self.is_wafer = asked[1]
         self.table = Table(*core.table())
+        super().__init__(self.table["what"], map(float, self.table["value"]))
         rows = core.findings
         names = ("rule", "value", "limit", "unit", "holds", "part", "device", "x", "y", "text")
         self.rules = Table(names, [self._column(rows, name) for name in names])
@@ -86,16 +91,6 @@ class Layout:
     def holds(self) -> bool:
         """Whether all fabrication rules hold."""
         return not self.broken
-
-    def __getitem__(self, what: str) -> float:
-        """A value of the table, for the first device: `layout["gap"]`."""
-        try:
-            return float(self.table["value"][self.table["what"].index(what)])
-        except ValueError:
-            raise KeyError(f"nothing of the name {what!r} is measured; there are {', '.join(self.table['what'])}") from None
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.table["what"])
 
     @property
     def lumped(self) -> LumpedModel:
@@ -231,39 +226,44 @@ class Layout:
         axes[-1].set_xlabel("x (um)")
         return axes
 
-    def compare(self, *, threads: Optional[int] = None, progress: Progress = None) -> ComparedDevice:
+    def compare(self, *, threads: Optional[int] = None, executor: Any = None,
+                progress: Progress = None) -> ComparedDevice:
         """Where and how fast the drawn device trips, and which wishes it meets, beside the designed one. Needs a drawing
-        of a designed device (`from_design`)."""
+        of a designed device (`from_design`). executor: see `graze.design`."""
         folder = OwnFolder()
-        made = self._attended(lambda told: self._core.drawn(folder.path, threads=number_of_threads(threads), told=told),
-                              progress)
+        made = self._attended(self._core.drawn, folder.path, threads=threads, executor=executor, progress=progress)
         return ComparedDevice(Table(*made["table"]), made["met"], made["drawing"], made["parameters"])
 
     def wafers(self, count: int, *, seed: int = 1, despite_rules: bool = False, threads: Optional[int] = None,
-               progress: Progress = None) -> "Wafers":
+               executor: Any = None, progress: Progress = None) -> Wafers:
         """Makes wafers of devices by simulation, with the variations of the section `spread` of the design: where each
         device trips, and how many are as wanted.
 
-        count: of wafers. seed: of the random numbers. Results do not depend on threads. InputError where a rule is broken,
-        unless despite_rules, and where the design does not say what varies.
+        count: of wafers. seed: of the random numbers. Results do not depend on threads.
+        executor: a concurrent.futures.Executor whose workers solve for the devices, in place of threads; the results are
+            the same.
+
+        InputError where a rule is broken, unless despite_rules, and where the design does not say what varies; WorkersLost
+        of an executor.
         """
-        count, seed = _whole(count, "count", 1, 100_000), _whole(seed, "seed", 0, 2**53)
+        count, seed = checked.whole(count, "count", 1, 100_000), checked.whole(seed, "seed", 0, 2**53)
         folder = OwnFolder()
-        made = self._attended(lambda told: self._core.wafers(
-            folder.path, count, seed=seed, despite_rules=bool(despite_rules), threads=number_of_threads(threads),
-            told=told), progress)
+        made = self._attended(self._core.wafers, folder.path, count, seed=seed, despite_rules=bool(despite_rules),
+                              threads=threads, executor=executor, progress=progress)
         return Wafers(self, made, count, seed, folder)
 
-    def _attended(self, work: Callable[[Any], Any], progress: Progress) -> Any:
-        told, close = told_text(progress)
+    def _attended(self, work: Callable[..., Any], *arguments: Any, threads: Optional[int], executor: Any,
+                  progress: Progress, **words: Any) -> Any:
+        from ._executors import handed_out
+
         try:
-            return work(told)
-        except KeyboardInterrupt:
-            raise Interrupted() from None
+            with attended(progress, "text") as told, handed_out(executor, told) as (parts, look):
+                return work(*arguments, **words, threads=checked.number_of_threads(threads), told=look, parts=parts)
         except InputError as error:
             raise self._source.told(error) from None
-        finally:
-            close()
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return drawn, (self._source, *self._asked)
 
     def __repr__(self) -> str:
         what = f"wafer, {len(self._core.devices)} kinds of devices" if self.is_wafer else "device"
@@ -282,141 +282,6 @@ class Layout:
         except ImportError:
             return text
         return f'<img src="data:image/png;base64,{base64.b64encode(data.getvalue()).decode()}">{text}'
-
-
-class Wafers(Mapping):  # type: ignore[type-arg]
-    """Wafers of devices that were made by simulation.
-
-    A mapping from the quantities of `facts` to their values: `wafers["yield"]`. `devices` is a table of all devices: where
-    each lies, how it departs from the drawing, where it trips. `problems` is a dict of what prevents devices from tripping,
-    and how many it concerns; `failed` says how many have no trip value that was found; `count` and `seed` are as asked.
-    """
-
-    def __init__(self, layout: Layout, core: Any, count: int, seed: int, folder: OwnFolder) -> None:
-        self._layout, self._core, self._folder = layout, core, folder
-        self.count, self.seed = count, seed
-        self.facts, self.devices = Table(*core.facts()), Table(*core.devices())
-        self.failed: int = core.failed
-        self.problems: Dict[str, int] = dict(core.problems)
-
-    def __getitem__(self, quantity: str) -> Any:
-        try:
-            return self.facts["value"][self.facts["quantity"].index(quantity)]
-        except ValueError:
-            raise KeyError(f"there is no fact {quantity!r}; there are {', '.join(self)}") from None
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.facts["quantity"])
-
-    def __len__(self) -> int:
-        return len(self.facts)
-
-    @property
-    def report(self) -> str:
-        """The report as JSON, as the program writes it."""
-        return str(self._layout._core.wafer_json(self._core, self.count, self.seed))
-
-    def save(self, folder: Any) -> List[str]:
-        """Writes wafers.csv, devices.csv, report.json, and the maps map.svg and map.png, drawn by matplotlib, into a folder.
-        Returns the paths. FileError for a folder that is not empty."""
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
-
-        folder = empty_folder(folder)
-        paths = [os.path.join(folder, name)
-                 for name in ("wafers.csv", "devices.csv", "report.json", "map.svg", "map.png")]
-        for path, text in zip(paths, (self._core.facts_csv(), self._core.devices_csv(), self.report)):
-            write_file(path, text)
-        columns = self._columns()
-        page = Figure(figsize=(3.2 * columns, 3.2 * math.ceil(self._drawn() / columns) + 0.4), layout="constrained")
-        FigureCanvasAgg(page)
-        self.plot(axes=page.subplots(math.ceil(self._drawn() / columns), columns, squeeze=False).ravel())
-        for path in paths[3:]:
-            with Replacement(path) as temporary:
-                page.savefig(temporary)
-        return paths
-
-    def _drawn(self) -> int:
-        return min(self.count, 16)
-
-    def _columns(self) -> int:
-        return math.ceil(math.sqrt(self._drawn()))
-
-    def plot(self, *, axes: Any = None) -> Any:
-        """Draws the devices on their wafers (the first 16), coloured by the value at which they trip; crosses have none;
-        those as wanted are ringed. axes: one for each wafer. Returns them."""
-        import numpy
-
-        drawn, columns = self._drawn(), self._columns()
-        if axes is None:
-            from matplotlib import pyplot
-
-            rows = math.ceil(drawn / columns)
-            _, axes = pyplot.subplots(rows, columns, figsize=(3.2 * columns, 3.2 * rows + 0.4), squeeze=False,
-                                      layout="constrained")
-        axes = numpy.atleast_1d(axes).ravel()
-        if len(axes) < drawn:
-            raise InputError(f"{len(axes)} axes were given, and there are {drawn} wafers", "give as many, or none")
-        values = numpy.array([_number(value) for value in self.devices[self._core.control]])
-        scale = {"vmin": numpy.nanmin(values), "vmax": numpy.nanmax(values)} if numpy.isfinite(values).any() else {}
-        least = -math.inf if self._core.least is None else self._core.least
-        greatest = math.inf if self._core.greatest is None else self._core.greatest
-        ringed = (values >= least) & (values <= greatest) if (least, greatest) != (-math.inf, math.inf) else None
-        shown = None
-        for number, one in enumerate(axes[:drawn], 1):
-            of_wafer = numpy.asarray(self.devices["wafer"]) == number
-            shown = self._draw_wafer(one, number, of_wafer, values, scale, ringed) or shown
-        for one in axes[drawn:]:
-            one.set_axis_off()
-        if shown is not None:
-            unit = f" ({self._core.unit})" if self._core.unit else ""
-            words = "" if ringed is None else "; ringed: as wanted"
-            axes[0].figure.colorbar(shown, ax=list(axes), label=f"{self._core.control}{unit}{words}", shrink=0.8)
-        return axes
-
-    def _draw_wafer(self, axes: Any, number: int, of_wafer: Any, values: Any, scale: Dict[str, Any],
-                    ringed: Any) -> Any:
-        import numpy
-        from matplotlib.patches import Circle
-
-        x, y = (numpy.asarray(self.devices[name], dtype=float)[of_wafer] for name in ("x", "y"))
-        found = numpy.isfinite(values[of_wafer])
-        radius = self._layout._core.wafer_radius
-        axes.add_patch(Circle((0, 0), _in_unit(radius, self.devices.units.get("x", "um")), fill=False, color="0.6"))
-        shown = axes.scatter(x[found], y[found], c=values[of_wafer][found], s=30, **scale) if found.any() else None
-        axes.plot(x[~found], y[~found], "x", color="black")
-        if ringed is not None:
-            inside = ringed[of_wafer]
-            axes.plot(x[inside], y[inside], "o", markerfacecolor="none", color="black", markersize=9)
-        axes.set_aspect("equal")
-        axes.set_xticks([])
-        axes.set_yticks([])
-        axes.set_title(f"wafer {number}", fontsize="small")
-        return shown
-
-    def __repr__(self) -> str:
-        facts = ", ".join(f"{name} {value:.6g}" if isinstance(value, float) else f"{name} {value}"
-                          for name, value in list(self.items())[:4])
-        return f"<Wafers of {self._layout.name}: {self.count} with {len(self.devices)} devices; {facts}>"
-
-    def _repr_html_(self) -> str:
-        import html
-
-        return f"<p>{html.escape(repr(self))}</p>{self.facts._repr_html_()}"
-
-
-def _in_unit(micrometres: float, unit: str) -> float:
-    return micrometres * {"um": 1.0, "mm": 1e-3, "m": 1e-6}.get(unit, 1.0)
-
-
-def _number(value: Any) -> float:
-    return float(value) if isinstance(value, (int, float)) else math.nan
-
-
-def _whole(value: Any, name: str, least: int, most: int) -> int:
-    if isinstance(value, bool) or not hasattr(value, "__index__") or not least <= value.__index__() <= most:
-        raise InputError(f"{name} is {value!r}", f"give a whole number from {least} to {most}")
-    return int(value.__index__())
 
 
 def _mask(mask: Any) -> Optional[int]:
@@ -440,13 +305,7 @@ def _given(set_: Any) -> List[Tuple[str, Union[float, str]]]:
     for name, value in set_.items():
         if not isinstance(name, str):
             raise InputError(f"set has the key {name!r}", "name dimensions by texts")
-        if isinstance(value, str):
-            given.append((name, value))
-            continue
-        try:
-            given.append((name, float(value)))
-        except (TypeError, ValueError, OverflowError):
-            raise InputError(f"{name} is {value!r}", "give a number, or a text with its unit", "layout(), set") from None
+        given.append((name, value if isinstance(value, str) else checked.number(value, f"layout(), set, {name}")))
     return given
 
 
@@ -484,39 +343,36 @@ def drawn(source: DesignText, set_: Any, wafer: bool, from_design: Any) -> Layou
     folder = _folder_of(from_design)
     try:
         core = _graze.Layout(source.text, source.file, given=given, wafer=bool(wafer),
-                             from_design=None if folder is None else folder[0])
+                             from_design=None if folder is None else os.fspath(folder))
     except KeyboardInterrupt:
         raise Interrupted() from None
     except InputError as error:
-        for one in error.all:
-            if one.file.startswith("given "):
-                one.file = f"layout(), set, {one.file[6:]}"
-            elif one.file == "from_design":
-                one.file = "layout(), from_design"
-        raise source.told(error) from None
+        raise source.told(relocated(error, _place_of)) from None
     inputs = [("the design", source.path)]
     if folder is not None:
-        inputs.append(("the designed device", os.path.join(folder[0], "device.toml")))
-    options = [] if not isinstance(from_design, (str, os.PathLike)) else ["--from-design", os.fspath(from_design)]
+        inputs.append(("the designed device", os.path.join(folder, "device.toml")))
+    options = ["--from-design", folder] if isinstance(folder, str) else []
     for name, value in given:
         shown = value if isinstance(value, str) else repr(value).removesuffix(".0")
         options += ["--set", f"{name}={shown}"]
-    return Layout(core, source, inputs, options, bool(wafer))
+    return Layout(core, source, inputs, options, (dict(given), bool(wafer), folder))
 
 
-def _folder_of(from_design: Any) -> Optional[Tuple[str, Any]]:
-    """The folder with the device, and what keeps it alive."""
-    if from_design is None:
-        return None
+def _place_of(error: Error) -> Optional[str]:
+    if error.file.startswith("given "):
+        return f"layout(), set, {error.file[6:]}"
+    return "layout(), from_design" if error.file == "from_design" else None
+
+
+def _folder_of(from_design: Any) -> Union[None, str, OwnFolder]:
+    """The folder with the device."""
     if isinstance(from_design, Design):
         folder = OwnFolder()
         write_file(os.path.join(folder.path, "device.toml"), from_design._core.device_text)
-        return folder.path, folder
-    try:
-        return os.fspath(from_design), None
-    except TypeError:
-        raise InputError(f"from_design is a {type(from_design).__name__}",
-                         "give what graze.design() returned, or a folder") from None
+        return folder
+    if from_design is None or isinstance(from_design, OwnFolder):
+        return from_design
+    return checked.path_of(from_design, "a folder", "layout(), from_design", "give what graze.design() returned, or a folder")
 
 
 def mask_layers() -> Dict[Tuple[int, int], str]:

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import html
-import os
-from collections.abc import Mapping, MutableMapping
-from typing import Any, NamedTuple, Optional, Tuple
+from collections.abc import Mapping
+from typing import Any, Dict, NamedTuple, Optional, Tuple
 
 from . import _graze
-from ._errors import FileError, InputError, ModelError, as_kind
+from ._arguments import path_of
+from ._errors import InputError, ModelError, as_kind
 from ._expressions import Expression, is_number, number_of, plain, short
+from ._model_values import Initial, Parameters, html_table
+from ._output import write_file
+from ._table import Table
 
 
 class Described(NamedTuple):
@@ -26,170 +29,6 @@ class Finding(NamedTuple):
 
     part: str
     text: str
-
-
-class _Values(MutableMapping):
-    """Values of parts of a model by their names: a mapping whose items are attributes too."""
-
-    _kind = ""
-    _set = ""
-
-    def __init__(self, model: "Model"):
-        object.__setattr__(self, "_model", model)
-
-    def _parts(self) -> list:
-        raise NotImplementedError
-
-    def _numbers(self) -> list:
-        raise NotImplementedError
-
-    def _unknown(self, name) -> str:
-        return f"the model has no {self._kind} {short(name)}; it has {', '.join(self) or 'none'}"
-
-    def __getitem__(self, name):
-        if isinstance(name, (str, Expression)):
-            for part, value in zip(self._parts(), self._numbers()):
-                if part["name"] == str(name):
-                    return value
-        raise KeyError(self._unknown(name))
-
-    def __setitem__(self, name, value):
-        model = self._model
-        try:
-            name = plain(name)
-            getattr(model._core, self._set)(name, model._number(value, name))
-        except InputError as error:
-            raise as_kind(error, ModelError) from None
-
-    def __delitem__(self, name):
-        raise InputError(f"a {self._kind} cannot be removed from a model", "write another model")
-
-    def __contains__(self, name):
-        return str(name) in list(self) if isinstance(name, (str, Expression)) else False
-
-    def __iter__(self):
-        return (one["name"] for one in self._parts())
-
-    def __len__(self):
-        return len(self._parts())
-
-    # The values at once, which is quicker than one by one.
-    def items(self):
-        return dict(zip(self, self._numbers())).items()
-
-    def values(self):
-        return dict(self.items()).values()
-
-    def __getattr__(self, name):
-        if name.startswith("_"):
-            raise AttributeError(name)
-        try:
-            return self[name]
-        except KeyError as error:
-            raise AttributeError(error.args[0]) from None
-
-    def __setattr__(self, name, value):
-        self[name] = value
-
-    def __dir__(self):
-        return [*super().__dir__(), *self]
-
-    def __reduce__(self):
-        return type(self), (self._model,)
-
-    @property
-    def units(self) -> dict:
-        """Units by name; empty texts where none is given."""
-        return {one["name"]: one["unit"] for one in self._parts()}
-
-    @property
-    def texts(self) -> dict:
-        """Meanings by name."""
-        return {one["name"]: one["text"] for one in self._parts()}
-
-    def __repr__(self):
-        return "{" + ", ".join(_with_unit(name, value, self.units[name]) for name, value in self.items()) + "}"
-
-    def _repr_html_(self):
-        return _table(("name", "value", "unit", ""), self._rows())
-
-    def _rows(self):
-        return [(part["name"], f"{value:.7g}", part["unit"], part["text"] + self._more(part))
-                for part, value in zip(self._parts(), self._numbers())]
-
-    def _more(self, part) -> str:
-        return ""
-
-
-class Parameters(_Values):
-    """The parameters of a model: a mapping from names to values, which are attributes too.
-
-    Independent parameters can be set, to numbers or to expressions in parameters, as texts too; those that follow from
-    others change with them. `units` and `texts` are dicts by name. Raises ModelError for unknown names and for what is
-    no finite number.
-
-    >>> parameters = Model.shipped("impact-oscillator").parameters
-    >>> parameters.omega = "2*pi/2.5"
-    >>> parameters["omega"]
-    2.5132741228718345
-    """
-
-    _kind = "parameter"
-    _set = "set_parameter"
-
-    def _parts(self):
-        return self._model._core.parameters
-
-    def _numbers(self):
-        return self._model._core.parameter_values()
-
-    @property
-    def independent(self) -> tuple:
-        """Names of the parameters that do not follow from others."""
-        return tuple(self._model._core.independent_parameters())
-
-    @property
-    def expressions(self) -> dict:
-        """For each parameter that follows from others: how, as a text."""
-        return {one["name"]: one["expression"] for one in self._parts() if one["expression"] is not None}
-
-    def _more(self, part):
-        return "" if part["expression"] is None else f" (= {part['expression']})"
-
-
-class Initial(_Values):
-    """The initial values of a model's states: a mapping from names to values, which are attributes too and can be set,
-    to numbers or to expressions in parameters. `units` and `texts` are dicts by name.
-
-    >>> model = Model.shipped("bouncing-ball")
-    >>> model.initial.v = 0
-    """
-
-    _kind = "state"
-    _set = "set_initial"
-
-    def _parts(self):
-        return self._model._core.states
-
-    def _numbers(self):
-        return self._model._core.initial_state()
-
-    def _more(self, part):
-        if part["period"] is not None:
-            return f" (cyclic, period {part['period']})"
-        return " (drifting)" if part["drifting"] else ""
-
-
-def _with_unit(name: str, value: float, unit: str) -> str:
-    return f"{name}: {value:.7g}" + (f" {unit}" if unit else "")
-
-
-def _table(heads, rows) -> str:
-    def row(tag, cells):
-        return "<tr>" + "".join(f"<{tag}>{html.escape(str(cell))}</{tag}>" for cell in cells) + "</tr>"
-
-    return (f"<table><thead>{row('th', heads)}</thead><tbody>" + "".join(row("td", cells) for cells in rows)
-            + "</tbody></table>")
 
 
 class Model:
@@ -250,8 +89,9 @@ class Model:
         for given in ({} if parameters is None else parameters, values):
             self._set(given)
 
-    def _write(self, name, text, parts: dict, values: dict):
-        from ._written_model import FILE, WrittenModel, near
+    def _write(self, name: Any, text: Any, parts: Dict[str, Any], values: Dict[str, Any]) -> None:
+        from ._model_arguments import near
+        from ._written_model import FILE, WrittenModel
 
         for key in values:
             raise TypeError(f"Model() has no argument {key!r}; {near(key, ['name', 'text', *parts])}")
@@ -261,27 +101,27 @@ class Model:
         except InputError as error:
             raise written.told(error) from None
 
-    def _read(self, text, file):
+    def _read(self, text: Any, file: Any) -> None:
         try:
             if text is not None:
                 if not isinstance(text, str):
                     raise ModelError(f"Model(), text is of type {type(text).__name__}", "give the text of a model file")
                 self._core = _graze.Model.parsed(plain(text), "model")
             else:
-                path = plain(_path(file, "Model(), file"))
+                path = plain(path_of(file, "a model"))
                 self._core = _graze.Model.loaded(path if "/" in path else "./" + path)
         except InputError as error:
             raise as_kind(error, ModelError) from None
 
     @classmethod
-    def _of(cls, core, parameters=None) -> "Model":
+    def _of(cls, core: Any, parameters: Any = None) -> Model:
         model = cls.__new__(cls)
         model._core = core
         model._set(parameters or {})
         return model
 
     @classmethod
-    def shipped(cls, name: str, **parameters: Any) -> "Model":
+    def shipped(cls, name: str, **parameters: Any) -> Model:
         """A model that comes with graze; `graze.models()` lists them. Keyword arguments set parameters.
 
         Raises ModelError if there is none of this name.
@@ -291,13 +131,13 @@ class Model:
                              "graze.models() lists them; graze.load reads files")
         return load(name, **parameters)
 
-    def _set(self, parameters):
+    def _set(self, parameters: Any) -> None:
         if not isinstance(parameters, Mapping):
             raise ModelError("Model(), parameters is no dict", "give a dict from names to values")
         for name, value in parameters.items():
             self.parameters[name] = value
 
-    def _number(self, value, called: str) -> float:
+    def _number(self, value: Any, called: str) -> float:
         """A number, or the value of an expression in parameters."""
         if isinstance(value, (str, Expression)):
             return self._core.value_of(plain(value), called)
@@ -308,7 +148,7 @@ class Model:
         except InputError as error:
             raise ModelError(error.problem, error.remedy, called) from None
 
-    def with_(self, **values: Any) -> "Model":
+    def with_(self, **values: Any) -> Model:
         """A copy with other values of parameters or initial states."""
         copy = self.__copy__()
         states = set(copy.initial)
@@ -364,48 +204,48 @@ class Model:
         return tuple(Described(one["name"], one["unit"], one["text"]) for one in self._core.states)
 
     @property
-    def periods(self) -> dict:
+    def periods(self) -> Dict[str, float]:
         """Periods of the cyclic states, at the present parameters."""
         periods = zip((one.name for one in self.states), self._core.periods())
         return {name: period for name, period in periods if period > 0}
 
     @property
-    def definitions(self) -> tuple:
+    def definitions(self) -> Tuple[str, ...]:
         """Names of the definitions."""
         return tuple(name for name, _ in self._core.definitions)
 
     @property
-    def modes(self) -> tuple:
+    def modes(self) -> Tuple[str, ...]:
         """Names of the modes."""
         return tuple(name for name, _ in self._core.modes)
 
     @property
-    def events(self) -> tuple:
+    def events(self) -> Tuple[str, ...]:
         """Names of the events."""
         return tuple(name for name, _ in self._core.events)
 
     @property
-    def jumps(self) -> tuple:
+    def jumps(self) -> Tuple[str, ...]:
         """Names of the jumps; the first is `identity`."""
         return tuple(name for name, _ in self._core.jumps)
 
     @property
-    def sections(self) -> tuple:
+    def sections(self) -> Tuple[str, ...]:
         """Names of the sections."""
         return tuple(name for name, _ in self._core.sections)
 
     @property
-    def symmetries(self) -> tuple:
+    def symmetries(self) -> Tuple[str, ...]:
         """Names of the symmetries."""
         return tuple(name for name, _ in self._core.symmetries)
 
     @property
-    def transitions(self) -> tuple:
+    def transitions(self) -> Tuple[Tuple[str, str, str, str], ...]:
         """(label, mode, event, jump) of each transition."""
         return tuple(self._core.transitions)
 
     @property
-    def quantities(self) -> tuple:
+    def quantities(self) -> Tuple[str, ...]:
         """Names of the quantities."""
         return tuple(name for name, *_ in self._core.quantities)
 
@@ -427,6 +267,7 @@ class Model:
 
     def describe(self) -> str:
         """A readable text of all states, parameters, modes and other parts, as `graze check` prints it."""
+
         import textwrap
 
         lines = [self.name + (f" (time in {self.time_unit})" if self.time_unit else "")]
@@ -438,49 +279,42 @@ class Model:
 
     def table(self) -> Any:
         """A Table with one row for every named item: item, name, value, unit, text."""
-        from ._table import Table
-
         return Table(*self._core.table())
 
     def save(self, path: Any) -> None:
-        """Writes the model file. An existing file is replaced. Raises FileError if it cannot be written."""
-        try:
-            with open(_path(path, "save(), path"), "w", encoding="utf-8") as file:
-                file.write(str(self))
-        except OSError as error:
-            raise FileError("the model file cannot be written", error.strerror or "", str(path)) from None
-        except ValueError as error:  # no text that a file can be named by
-            raise ModelError(f"{short(path)} is no path", str(error), "save(), path") from None
+        """Writes the model file. An existing file is replaced, but for a result file. Raises FileError if it cannot be
+        written."""
+        write_file(path, str(self))
 
-    def __str__(self):
+    def __str__(self) -> str:
         return self._core.text()
 
-    def __eq__(self, other):
-        return str(self) == str(other) if isinstance(other, Model) else NotImplemented
+    def __eq__(self, other: object) -> bool:
+        return bool(str(self) == str(other)) if isinstance(other, Model) else NotImplemented
 
     __hash__ = None  # type: ignore[assignment]
 
-    def __copy__(self):
+    def __copy__(self) -> Model:
         return type(self)._of(self._core.copied())
 
-    def __deepcopy__(self, memo):
+    def __deepcopy__(self, memo: Any) -> Model:
         return self.__copy__()
 
-    def __reduce__(self):
+    def __reduce__(self) -> Tuple[Any, ...]:
         return _read_again, (str(self),)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         states = ", ".join(one.name for one in self.states)
         modes = f"; modes {', '.join(self.modes)}" if len(self.modes) > 1 else ""
         return f"<Model {self.name}: states {states}{modes}>"
 
-    def _repr_html_(self):
+    def _repr_html_(self) -> str:
         said = f"<b>{html.escape(self.name)}</b>"
         if self.text:
             said += f"<p>{html.escape(self.text)}</p>"
-        said += _table(("state", "initial", "unit", ""), self.initial._rows())
+        said += html_table(("state", "initial", "unit", ""), self.initial._rows())
         if self.parameters:
-            said += _table(("parameter", "value", "unit", ""), self.parameters._rows())
+            said += html_table(("parameter", "value", "unit", ""), self.parameters._rows())
         said += f"<p>modes {html.escape(', '.join(self.modes))}"
         if self.transitions:
             said += "; transitions " + html.escape(", ".join(label for label, *_ in self.transitions))
@@ -491,26 +325,18 @@ def _read_again(text: str) -> Model:
     return Model(text=text)
 
 
-def _path(path, called: str):
-    try:
-        return os.fspath(path) if isinstance(path, str) else os.fsdecode(path)
-    except TypeError:
-        raise ModelError(f"{short(path)} is no path", "give the path of a file as a text or as a pathlib.Path",
-                         called) from None
-
-
 def load(name_or_file: Any, **parameters: Any) -> Model:
     """A shipped model by its name, or the model in a file. Keyword arguments set parameters.
 
     Raises ModelError, whose `all` lists all mistakes, and FileError for a file that cannot be read.
     """
     try:
-        core = _graze.Model.loaded(plain(_path(name_or_file, "load()")))
+        core = _graze.Model.loaded(plain(path_of(name_or_file, "a model")))
     except InputError as error:
         raise as_kind(error, ModelError) from None
     return Model._of(core, parameters)
 
 
-def models() -> dict:
+def models() -> Dict[str, str]:
     """The models that come with graze: name -> what it is."""
     return dict(_graze.shipped_models())

@@ -6,9 +6,13 @@ import os
 import shutil
 import tempfile
 import weakref
-from typing import Any, Iterable, Tuple, Union
+from contextlib import contextmanager
+from typing import Any, Dict, Iterable, Iterator, Tuple, Union
 
+from ._arguments import path_of
 from ._errors import FileError, InputError
+
+Path = Union[str, "os.PathLike[str]"]
 
 _DATABASE = b"SQLite format 3\0"
 
@@ -44,7 +48,18 @@ def require_no_input(path: str, inputs: Inputs) -> None:
 
 def _told(path: str, error: OSError) -> FileError:
     return FileError(f"'{path}' cannot be written: {error.strerror or error}",
-                     "choose another file or change the permissions")
+                     "choose another place, or change the permissions")
+
+
+@contextmanager
+def writing(path: Any) -> Iterator[None]:
+    """Errors of the system while something is written, as those of the package."""
+    try:
+        yield
+    except FileError:
+        raise
+    except OSError as error:
+        raise _told(error.filename or os.fspath(path), error) from None
 
 
 class Replacement:
@@ -52,14 +67,7 @@ class Replacement:
     what is there when all went well."""
 
     def __init__(self, path: Any, inputs: Inputs = ()) -> None:
-        try:
-            self.path: str = os.fspath(path)
-        except TypeError:
-            raise InputError(f"a file is named by {path!r}", "name it by a text or a path") from None
-        if isinstance(self.path, bytes):
-            self.path = os.fsdecode(self.path)
-        if not self.path or "\0" in self.path:
-            raise FileError(f"{self.path!r} is no name of a file", "name a file")
+        self.path = path_of(path, "a file")
         self.target = os.path.realpath(self.path)  # the target of a link is replaced, not the link
         if os.path.isdir(self.target):
             raise FileError(f"'{self.path}' cannot be written: it is a folder", "name a file in it")
@@ -114,20 +122,22 @@ def write_file(path: Any, contents: Union[str, bytes], inputs: Inputs = ()) -> N
             file.write(contents if isinstance(contents, bytes) else contents.encode())
 
 
+def made_folder(folder: Any) -> str:
+    """Makes a folder for results, if it is missing. Returns its path."""
+    path = path_of(folder, "a folder")
+    with writing(path):
+        os.makedirs(path, exist_ok=True)
+    return path
+
+
 def empty_folder(folder: Any) -> str:
-    """Makes a folder for results. FileError if it has something in it already."""
-    try:
-        folder = os.fspath(folder)
-        os.makedirs(folder, exist_ok=True)
-        occupied = bool(os.listdir(folder))
-    except (OSError, ValueError) as error:
-        raise FileError(f"folder {folder!r} cannot be made: {getattr(error, 'strerror', error)}",
-                        "choose another one") from None
-    except TypeError:
-        raise InputError(f"a folder is named by {folder!r}", "name it by a text or a path") from None
+    """The same for a folder that has nothing in it. FileError if it has something in it already."""
+    path = made_folder(folder)
+    with writing(path):
+        occupied = bool(os.listdir(path))
     if occupied:
-        raise FileError(f"there is something in the folder '{folder}' already", "choose another one, or empty it")
-    return str(folder)
+        raise FileError(f"there is something in the folder '{path}' already", "choose another one, or empty it")
+    return path
 
 
 def _remove(folder: str, owner: int) -> None:
@@ -136,7 +146,7 @@ def _remove(folder: str, owner: int) -> None:
 
 
 class OwnFolder:
-    """A temporary folder, which is made when it is needed first, and lives as long as this object."""
+    """A temporary folder, which is made when it is needed first, and lives as long as this object. Pickles have its files."""
 
     def __init__(self) -> None:
         self._path = ""
@@ -144,6 +154,26 @@ class OwnFolder:
     @property
     def path(self) -> str:
         if not self._path:
-            self._path = tempfile.mkdtemp(prefix="graze-")
+            with writing("a temporary folder"):
+                self._path = tempfile.mkdtemp(prefix="graze-")
             weakref.finalize(self, _remove, self._path, os.getpid())
         return self._path
+
+    def __fspath__(self) -> str:
+        return self.path
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        files: Dict[str, bytes] = {}
+        if self._path:
+            for name in os.listdir(self._path):
+                with open(os.path.join(self._path, name), "rb") as file:
+                    files[name] = file.read()
+        return _restored_folder, (files,)
+
+
+def _restored_folder(files: Dict[str, bytes]) -> OwnFolder:
+    folder = OwnFolder()
+    for name, contents in files.items():
+        with open(os.path.join(folder.path, name), "wb") as file:
+            file.write(contents)
+    return folder

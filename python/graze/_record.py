@@ -1,4 +1,4 @@
-"""Measured records: tables of channels against time, what is computed from them, and estimates of parameters."""
+"""Measured records: tables of channels against time, and what is computed from them."""
 
 from __future__ import annotations
 
@@ -7,136 +7,12 @@ import warnings
 from collections.abc import Mapping, Sequence
 from typing import Any, Dict, Iterable, Iterator, List, NamedTuple, Optional, Tuple, Union
 
-from . import _graze
-from ._errors import FileError, InputError, Interrupted
+from . import _arguments as checked, _graze
+from ._errors import InputError, Interrupted
 from ._output import OwnFolder, Replacement
+from ._record_arguments import PROCESSING, READING, processing_words, table_words
+from ._runs import identify, record
 from ._table import Table
-
-_PROCESSING = ("scale", "from_", "to", "pass_", "stop", "every", "derivative", "half_width")
-_READING = ("columns", "group", "skip", "names_line", "units_line")
-_TABLES = ("channels", "samples", "periods", "sections", "extremes", "spectrum", "impacts")
-
-
-def _number(value: Any, name: str, least: Optional[float] = None, above: Optional[float] = None) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        raise InputError(f"{name} is {value!r}", "give a number") from None
-    except OverflowError:
-        raise InputError(f"{name} is too large", "give a smaller number") from None
-    if not abs(number) < float("inf"):
-        raise InputError(f"{name} is {value!r}", "give a finite number")
-    if least is not None and not number >= least:
-        raise InputError(f"{name} is {value!r}", f"give a number from {least:g} on")
-    if above is not None and not number > above:
-        raise InputError(f"{name} is {value!r}", f"give a number above {above:g}")
-    return number
-
-
-def _whole(value: Any, name: str, least: int, most: int) -> int:
-    try:
-        number = value.__index__() if not isinstance(value, bool) else None
-    except AttributeError:
-        number = None
-    if number is None or not least <= number <= most:
-        raise InputError(f"{name} is {value!r}", f"give a whole number from {least} to {most}")
-    return int(number)
-
-
-def _text(value: Any, name: str) -> str:
-    if not isinstance(value, str):
-        raise InputError(f"{name} is {value!r}", "give a text")
-    try:
-        value.encode()
-    except UnicodeEncodeError:
-        raise InputError(f"{name} is {value!r}, which cannot be written in UTF-8", "give another text") from None
-    return value
-
-
-def _names(value: Any, name: str) -> List[str]:
-    if isinstance(value, str):
-        return [value]
-    try:
-        return [_text(one, name) for one in value]
-    except TypeError:
-        raise InputError(f"{name} is {value!r}", "give a name, or a list of names") from None
-
-
-def _scales(scale: Any) -> List[Tuple[str, float, float, Optional[str]]]:
-    if not isinstance(scale, Mapping):
-        raise InputError(f"scale is {scale!r}", 'give a dict, as {"q": 2.011} or {"q": (2.011, 0.5, "mm")}')
-    scales = []
-    for channel, value in scale.items():
-        what = f"scale of {channel}"
-        parts = value if isinstance(value, (tuple, list)) else (value,)
-        if not 1 <= len(parts) <= 3:
-            raise InputError(f"{what} has {len(parts)} items", "give a factor, or (factor, offset, unit)")
-        unit = _text(parts[2], f"unit in the {what}") if len(parts) == 3 and parts[2] is not None else None
-        scales.append((_text(channel, "a channel of scale"), _number(parts[0], what),
-                       _number(parts[1], what) if len(parts) > 1 else 0.0, unit))
-    return scales
-
-
-def _processing(given: Dict[str, Any]) -> Dict[str, Any]:
-    """Keyword arguments of processing, in the words of the compiled part."""
-    words: Dict[str, Any] = {}
-    for name, value in given.items():
-        if value is None:
-            continue
-        if name == "scale":
-            words["scale"] = _scales(value)
-        elif name in ("from_", "to"):
-            words[name.rstrip("_")] = _number(value, name)
-        elif name in ("pass_", "stop"):
-            words[name.rstrip("_")] = _number(value, name, above=0)
-        elif name == "every":
-            words["every"] = _whole(value, name, 1, 1_000_000)
-        elif name == "half_width":
-            words["half_width"] = _whole(value, name, 4, 100_000)
-        else:
-            words["derivative"] = _text(value, name)
-    if "stop" in words and "pass" not in words:
-        raise InputError("stop is given without pass_", "give pass_ too")
-    if "half_width" in words and "derivative" not in words:
-        raise InputError("half_width is given without derivative", "give derivative too")
-    return words
-
-
-def _table_words(what: str, given: Dict[str, Any]) -> Dict[str, Any]:
-    words: Dict[str, Any] = {}
-    for name, value in given.items():
-        if value is None:
-            continue
-        if name in ("channels", "negate"):
-            words[name] = _names(value, name)
-        elif name == "channel":
-            words["channels"] = _names(value, name)
-        elif name in ("reference", "displacement"):
-            words[name] = _text(value, name)
-        elif name == "level":
-            words[name] = _number(value, name)
-        elif name == "hysteresis":
-            words[name] = _number(value, name, above=0)
-        elif name == "least_jump":
-            words[name] = _number(value, name, least=0)
-        elif name == "phases":
-            words[name] = [_phase(one) for one in (value if isinstance(value, Iterable) else [value])]
-        elif name == "window":
-            words[name] = _whole(value, name, 5, 100_000)
-        elif name == "transition":
-            words[name] = _whole(value, name, 0, 100_000)
-        elif name == "part":
-            words[name] = _whole(value, name, 8, 4_000_000)
-        else:
-            raise TypeError(f"the table {what!r} of records has no argument {name!r}")
-    return words
-
-
-def _phase(value: Any) -> float:
-    phase = _number(value, "a phase")
-    if not 0 <= phase < 1:
-        raise InputError(f"a phase is {value!r}", "give parts of a period, from 0 to less than 1")
-    return phase
 
 
 class PeriodFit(NamedTuple):
@@ -195,8 +71,8 @@ class _RecordTables:
     def table(self, what: str, **given: Any) -> Table:
         """A table by its name in `graze record --what`: channels, samples, periods, sections, extremes, spectrum or
         impacts; with the arguments of the function of that name. Of several records, the first column tells which."""
-        words = _table_words(what, given)
-        return Table(*self._computed(_graze.record_table, self._cores, _text(what, "what"), words))
+        words = table_words(what, given)
+        return Table(*self._computed(_graze.record_table, self._cores, checked.text(what, "what"), words))
 
     def summary(self, *, channels: Any = None) -> Table:
         """Each channel: least, greatest, mean, standard deviation; number of samples, begin, end, shortest and longest
@@ -251,23 +127,19 @@ class _RecordTables:
 
         Returns a graze.Identification; raises as `graze.identify` does.
         """
-        from ._runs import identify, record
-
         if "what" in keys or "records" in keys:
             raise InputError("fit() was given what and records", "they are known; use graze.identify for others")
         folder = OwnFolder()
-        run = record(files=self._written(folder.path), folder=folder.path)
-        found = identify(model, run, what="fit", threads=threads, progress=progress, **keys)
-        found._records_folder = folder  # lives as long as the result
-        return found
+        read = record(files=self._written(folder.path), folder=folder)
+        return identify(model, read, what="fit", threads=threads, progress=progress, **keys)
 
     def plot(self, what: str = "samples", *, axes: Any = None, **given: Any) -> Any:
         """Draws a table by its name, as `graze record --plot` does; the arguments are those of `table`. Returns the
         axes."""
         from ._plot import draw
 
-        words = _table_words(what, given)
-        return draw(self._computed(_graze.record_figure, self._cores, _text(what, "what"), words), axes)
+        words = table_words(what, given)
+        return draw(self._computed(_graze.record_figure, self._cores, checked.text(what, "what"), words), axes)
 
     def _repr_html_(self) -> str:
         from ._plot import small_picture
@@ -293,7 +165,8 @@ class MeasuredRecord(_RecordTables):
     all. `channels` are the names, `units` a dict, `time_unit` that of the times. Files are read part by part: only
     `samples` needs memory for the whole record. `remarks` says what was left out of the file.
 
-    Raises InputError unless each channel has a finite value at each time, and times rise.
+    Records can be copied and pickled; pickles have all samples. Raises InputError unless each channel has a finite value
+    at each time, and times rise.
     """
 
     def __init__(self, times: Any, channels: Any, *, units: Optional[Mapping[str, str]] = None, time_unit: str = "",
@@ -304,21 +177,33 @@ class MeasuredRecord(_RecordTables):
         for one in units:
             if one not in channels:
                 raise InputError(f"there is no channel {one!r} for the unit", f"there are {', '.join(map(str, channels))}")
-        named = [(_text(one, "a channel"), _text(units.get(one, ""), "a unit")) for one in channels]
+        named = [(checked.text(one, "a channel"), checked.text(units.get(one, ""), "a unit")) for one in channels]
         arrays = [_array(values, one) for one, values in channels.items()]
-        self._take(_graze.Record.of_arrays(_text(name, "name"), ("t", _text(time_unit, "time_unit")),
+        self._take(_graze.Record.of_arrays(checked.text(name, "name"), ("t", checked.text(time_unit, "time_unit")),
                                            _array(times, "times"), named, arrays), [])
 
     @classmethod
-    def _of(cls, core: Any, inputs: List[Tuple[str, str]]) -> "MeasuredRecord":
+    def _of(cls, core: Any, inputs: List[Tuple[str, str]]) -> MeasuredRecord:
         record = cls.__new__(cls)
         record._take(core, inputs)
         return record
 
-    def _take(self, core: Any, inputs: List[Tuple[str, str]]) -> None:
+    def __copy__(self) -> MeasuredRecord:
+        return self  # nothing of it changes
+
+    def __deepcopy__(self, memo: Any) -> MeasuredRecord:
+        return self
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        samples = self.samples
+        return _record_again, (self.name, self._core.time, self.t, list(self.units.items()),
+                               [samples[name] for name in self.channels], self._inputs, self.remarks)
+
+    def _take(self, core: Any, inputs: List[Tuple[str, str]], remarks: Sequence[str] = ()) -> None:
         self._core, self._cores, self._inputs = core, [core], inputs
         self._samples: Optional[Table] = None
         self._told = 0
+        self._earlier = list(remarks)  # of the record that was pickled
         self.name: str = core.name
         self.channels: Tuple[str, ...] = tuple(name for name, _ in core.channels)
         self.units: Dict[str, str] = dict(core.channels)
@@ -337,7 +222,7 @@ class MeasuredRecord(_RecordTables):
     def remarks(self) -> List[str]:
         """What was left out of the file, as far as it has been read: rows with missing values, a last line that was cut
         off. Each is a warning too."""
-        return list(self._core.remarks)
+        return [*self._earlier, *self._core.remarks]
 
     @property
     def samples(self) -> Table:
@@ -369,7 +254,7 @@ class MeasuredRecord(_RecordTables):
 
     def processed(self, *, scale: Any = None, from_: Optional[float] = None, to: Optional[float] = None,
                   pass_: Optional[float] = None, stop: Optional[float] = None, every: Optional[int] = None,
-                  derivative: Optional[str] = None, half_width: Optional[int] = None) -> "MeasuredRecord":
+                  derivative: Optional[str] = None, half_width: Optional[int] = None) -> MeasuredRecord:
         """The record after these steps, in this order; nothing is read before it is needed.
 
         scale: what readings mean: {"q": factor}, or {"q": (factor, offset, unit)}.
@@ -381,22 +266,23 @@ class MeasuredRecord(_RecordTables):
         """
         given = {"scale": scale, "from_": from_, "to": to, "pass_": pass_, "stop": stop, "every": every,
                  "derivative": derivative, "half_width": half_width}
-        return MeasuredRecord._of(self._core.processed(_processing(given)), self._inputs)
+        return MeasuredRecord._of(self._core.processed(processing_words(given)), self._inputs)
 
     def period(self, reference: str, *, level: float = 0.0, hysteresis: Optional[float] = None) -> PeriodFit:
         """The period of a reference channel, by all times at which it rises through a level (see `periods`)."""
-        noise = 0.0 if hysteresis is None else _number(hysteresis, "hysteresis", above=0)
-        return PeriodFit(**self._computed(self._core.period, _text(reference, "reference"), _number(level, "level"), noise))
+        noise = 0.0 if hysteresis is None else checked.number(hysteresis, "hysteresis", above=0)
+        return PeriodFit(**self._computed(self._core.period, checked.text(reference, "reference"),
+                                          checked.number(level, "level"), noise))
 
     def harmonic(self, channel: str, frequency: float) -> HarmonicFit:
         """The sine of a frequency that fits a channel best. frequency: in radians per unit of time, as 2*pi/period."""
-        return HarmonicFit(**self._computed(self._core.harmonic, _text(channel, "channel"),
-                                            _number(frequency, "frequency", above=0)))
+        return HarmonicFit(**self._computed(self._core.harmonic, checked.text(channel, "channel"),
+                                            checked.number(frequency, "frequency", above=0)))
 
     def write(self, path: Any, *, channels: Any = ()) -> None:
         """Writes the record, or these channels: HDF5 where the name ends in .h5 or .hdf5, otherwise text with commas, whose
         numbers are read back exactly. An existing file is replaced, but for the one that the record comes from."""
-        names = _names(channels, "channels")
+        names = checked.names(channels, "channels")
         with Replacement(path, self._inputs) as temporary:
             self._computed(self._core.write, temporary, names)
 
@@ -419,6 +305,13 @@ class MeasuredRecord(_RecordTables):
         return f"<MeasuredRecord {self.name}: {channels}>"
 
 
+def _record_again(name: str, time: Tuple[str, str], times: Any, channels: List[Tuple[str, str]], values: List[Any],
+                  inputs: List[Tuple[str, str]], remarks: List[str]) -> MeasuredRecord:
+    record = MeasuredRecord.__new__(MeasuredRecord)
+    record._take(_graze.Record.of_arrays(name, time, times, channels, values), inputs, remarks)
+    return record
+
+
 class MeasuredRecords(_RecordTables, Sequence):  # type: ignore[type-arg]
     """Several records, as of a sweep: a sequence of MeasuredRecord, with tables and pictures of all together."""
 
@@ -438,6 +331,9 @@ class MeasuredRecords(_RecordTables, Sequence):  # type: ignore[type-arg]
     def _bytes(self) -> int:
         return sum(one._bytes() for one in self._records)
 
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return MeasuredRecords, (self._records,)
+
     def __getitem__(self, index: Any) -> Any:
         if isinstance(index, slice):
             return MeasuredRecords(self._records[index])
@@ -452,7 +348,7 @@ class MeasuredRecords(_RecordTables, Sequence):  # type: ignore[type-arg]
             one._computed(one._core.write, os.path.join(folder, name), [])
         return names
 
-    def processed(self, **given: Any) -> "MeasuredRecords":
+    def processed(self, **given: Any) -> MeasuredRecords:
         """Each record processed in the same way: see `MeasuredRecord.processed`."""
         return MeasuredRecords(one.processed(**given) for one in self._records)
 
@@ -467,17 +363,6 @@ def _array(values: Any, name: str) -> Any:
         return numpy.asarray(values, dtype=float)
     except (TypeError, ValueError):
         raise InputError(f"{name} are no numbers", "give an array of numbers") from None
-
-
-def _path(path: Any) -> str:
-    try:
-        text = os.fspath(path)
-    except TypeError:
-        raise InputError(f"a record is named by {path!r}", "name a file") from None
-    text = os.fsdecode(text) if isinstance(text, bytes) else str(text)
-    if not text or "\0" in text:
-        raise FileError(f"{text!r} is no name of a file", "name a file")
-    return str(text)
 
 
 def read_record(path: Any, *more: Any, columns: Optional[str] = None, group: Optional[str] = None,
@@ -497,172 +382,19 @@ def read_record(path: Any, *more: Any, columns: Optional[str] = None, group: Opt
         run.sections("V", phases=[0, 0.25]).to_pandas()
     """
     for name in processing:
-        if name not in _PROCESSING:
-            raise TypeError(f"read_record() has no argument {name!r}; it has {', '.join((*_READING, *_PROCESSING))}")
+        if name not in PROCESSING:
+            raise TypeError(f"read_record() has no argument {name!r}; it has {', '.join((*READING, *PROCESSING))}")
     layout: Dict[str, Union[str, int]] = {}
     for name, text in (("columns", columns), ("group", group)):
         if text is not None:
-            layout[name] = _text(text, name)
+            layout[name] = checked.text(text, name)
     for name, number, least in (("skip", skip, 0), ("names_line", names_line, 1), ("units_line", units_line, 1)):
         if number is not None:
-            layout[name] = _whole(number, name, least, 1_000_000_000)
-    words = _processing(processing)
+            layout[name] = checked.whole(number, name, least, 1_000_000_000)
+    words = processing_words(processing)
     records = []
     for one in (path, *more):
-        core = _graze.Record.opened(_path(one), layout)
-        records.append(MeasuredRecord._of(core.processed(words) if words else core, [("the record", _path(one))]))
+        file = checked.path_of(one, "a record")
+        core = _graze.Record.opened(file, layout)
+        records.append(MeasuredRecord._of(core.processed(words) if words else core, [("the record", file)]))
     return records[0] if not more else MeasuredRecords(records)
-
-
-class Estimate(NamedTuple):
-    """An estimated number: `value`, `unit`, its standard `error` (NaN: unknown), the ends `low` and `high` of the interval
-    that covers the truth with a probability of 95 %, and the degrees of `freedom` of the error."""
-
-    value: float
-    error: float
-    low: float
-    high: float
-    freedom: float
-    unit: str
-
-
-class Estimates(Mapping):  # type: ignore[type-arg]
-    """Numbers estimated from records: a mapping from names to `Estimate`.
-
-    `warnings` says why intervals cannot be relied on: an interval has a meaning only where the list is empty.
-    `covariance` is the matrix of covariances in the order of the names, zero where unknown (None: all are unknown);
-    `table` has all as columns; `plot()` draws measured and fitted values, and the residuals.
-    """
-
-    def __init__(self, made: Any) -> None:
-        values, self.covariance, told, self._figure = made
-        nan = float("nan")
-        self._values: Dict[str, Estimate] = {}
-        for name, unit, value, error, freedom, width in values:
-            known = freedom > 0
-            self._values[name] = Estimate(value, error if known else nan, value - width if known else nan,
-                                          value + width if known else nan, freedom if known else nan, unit)
-        self.warnings: List[str] = list(told)
-
-    def __getitem__(self, name: str) -> Estimate:
-        if name not in self._values:
-            raise KeyError(f"there is no estimate {name!r}; there are {', '.join(self._values)}")
-        return self._values[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._values)
-
-    def __len__(self) -> int:
-        return len(self._values)
-
-    @property
-    def table(self) -> Table:
-        """All estimates: name, unit, value, error, low, high, freedom."""
-        import numpy
-
-        names = ("value", "error", "low", "high", "freedom")
-        columns = [numpy.array([getattr(one, name) for one in self.values()], dtype=float) for name in names]
-        return Table(["name", "unit", *names], [list(self), [one.unit for one in self.values()], *columns])
-
-    def plot(self, *, axes: Any = None) -> Any:
-        """Draws measured and fitted values, and the residuals below. Returns the axes."""
-        from ._plot import draw
-
-        return draw(self._figure, axes)
-
-    def __repr__(self) -> str:
-        values = ", ".join(f"{name} {one.value:.6g}" + (f" +- {one.error:.2g}" if one.error == one.error else "")
-                           for name, one in self.items())
-        return f"<Estimates: {values}{f'; warnings: {len(self.warnings)}' if self.warnings else ''}>"
-
-    def _repr_html_(self) -> str:
-        import html
-
-        told = "".join(f"<p>{html.escape(text)}</p>" for text in self.warnings)
-        return str(self.table._repr_html_()) + told
-
-
-def _estimates(what: str, records: Tuple[Any, ...], words: Dict[str, Any]) -> Estimates:
-    found: List[MeasuredRecord] = []
-    for one in records:
-        if isinstance(one, (MeasuredRecords, list, tuple)):
-            found += MeasuredRecords(one)
-        elif isinstance(one, MeasuredRecord):
-            found.append(one)
-        else:
-            found.append(read_record(one))
-    if not found:
-        raise InputError("there are no records", "give one or more")
-    return Estimates(MeasuredRecords(found)._computed(_graze.identified, [one._core for one in found], what, words))
-
-
-def _known(value: Any, name: str, words: Dict[str, Any], above: Optional[float] = None) -> None:
-    """A number that is known, or (number, standard error), or an Estimate."""
-    if value is None:
-        return
-    error: Any = 0.0
-    if isinstance(value, Estimate):
-        value, error = value.value, value.error
-    elif isinstance(value, (tuple, list)):
-        if len(value) != 2:
-            raise InputError(f"{name} has {len(value)} items", "give a number, or (number, standard error)")
-        value, error = value
-    words[name] = repr(_number(value, name, above=above))
-    words[f"{name}_error"] = _number(error, f"the error of {name}", least=0)
-
-
-def decrement(*records: Any, channel: str = "v", peaks: int = 10) -> Estimates:
-    """Natural frequency and damping ratio from free decaying oscillations, one release a record.
-
-    records: MeasuredRecord objects or paths. channel: that decays. peaks: how many are used, the first of each record.
-    Raises InputError for records from which they cannot be estimated.
-    """
-    words = {"channel": _text(channel, "channel"), "peaks": _whole(peaks, "peaks", 2, 100_000)}
-    return _estimates("decrement", records, words)
-
-
-def restitution(*records: Any, channel: str = "v", displacement: Optional[str] = None, window: int = 12,
-                transition: int = 0, least_jump: float = 0.0) -> Estimates:
-    """The coefficient of restitution from impacts in a velocity, one record for each set of conditions.
-
-    The arguments are those of `MeasuredRecord.impacts`. Velocities are relative to the stop.
-    """
-    words = _table_words("impacts", {"displacement": displacement, "window": window, "transition": transition,
-                                     "least_jump": least_jump})
-    return _estimates("restitution", records, {"channel": _text(channel, "channel"), **words})
-
-
-def coupling(*records: Any, gap: Any, stiffness: Any, displacement: str = "q", current: str = "I",
-             noise: Optional[Tuple[float, float]] = None) -> Estimates:
-    """The constants beta1 and beta2 of an electromagnet from equilibria, one in each row of the records.
-
-    gap: at rest. stiffness: the mass times the square of the natural frequency. Both are numbers in the units of the
-    record, or (number, standard error). noise: of displacement and current, of which only the ratio matters.
-    """
-    words: Dict[str, Any] = {"displacement": _text(displacement, "displacement"), "current": _text(current, "current")}
-    _known(gap, "gap", words, above=0)
-    _known(stiffness, "stiffness", words, above=0)
-    if noise is not None:
-        if not isinstance(noise, (tuple, list)) or len(noise) != 2:
-            raise InputError(f"noise is {noise!r}", "give that of the displacement and that of the current")
-        words["displacement_noise"] = _number(noise[0], "the noise of the displacement", above=0)
-        words["current_noise"] = _number(noise[1], "the noise of the current", above=0)
-    return _estimates("coupling", records, words)
-
-
-def impedance(*records: Any, voltage: str = "V", current: str = "I", frequency: Optional[float] = None,
-              beta1: Any = None, beta2: Any = None, gap: Any = None, clamped: Optional[float] = None) -> Estimates:
-    """Resistance and inductance of a coil whose mass is clamped, under a sinusoidal voltage.
-
-    frequency: of the voltage roughly, per unit of time (found from the record). With beta1 and beta2 (numbers, (number,
-    error) or estimates of `coupling`), gap, and the displacement at which the mass is clamped, also the leakage
-    inductance.
-    """
-    words: Dict[str, Any] = {"voltage": _text(voltage, "voltage"), "current": _text(current, "current")}
-    for name, value in (("beta1", beta1), ("beta2", beta2), ("gap", gap)):
-        _known(value, name, words, above=0 if name == "gap" else None)
-    if clamped is not None:
-        words["clamped"] = repr(_number(clamped, "clamped"))
-    if frequency is not None:
-        words["frequency"] = repr(_number(frequency, "frequency", above=0))
-    return _estimates("impedance", records, words)

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import html
 from collections.abc import Mapping
-from typing import Any, Iterable, Iterator, Sequence
+from typing import Any, Dict, Iterable, Iterator, List, Sequence, Tuple
+
+from ._errors import InputError
 
 _SHOWN = 10  # rows at either end, in notebooks
 
 
-class Table(Mapping):
+class Table(Mapping):  # type: ignore[type-arg]
     """Named columns of equal length.
 
     Numbers are numpy arrays (NaN where one is missing), texts are lists (None where one is missing). `table["x"]` is a
@@ -20,13 +22,11 @@ class Table(Mapping):
     """
 
     def __init__(self, names: Iterable[str], columns: Iterable[Any], units: Sequence[str] = ()) -> None:
-        names = _distinct(names)
-        self._columns = dict(zip(names, columns))
-        self.units = {name: unit for name, unit in zip(names, units) if unit}
+        distinct = _distinct(names)
+        self._columns: Dict[str, Any] = dict(zip(distinct, columns))
+        self.units: Dict[str, str] = {name: unit for name, unit in zip(distinct, units) if unit}
         counts = {len(column) for column in self._columns.values()}
         if len(counts) > 1:
-            from ._errors import InputError
-
             raise InputError("the columns are of different lengths", "give columns of equal length")
 
     def __getitem__(self, name: Any) -> Any:
@@ -44,7 +44,7 @@ class Table(Mapping):
     def __len__(self) -> int:
         return len(next(iter(self._columns.values()), ()))
 
-    def __contains__(self, name) -> bool:
+    def __contains__(self, name: object) -> bool:
         return isinstance(name, str) and name in self._columns
 
     # A mapping's keys and values are its columns, but its length is the number of rows, and an empty table is false.
@@ -61,7 +61,7 @@ class Table(Mapping):
         return self._columns.items()
 
     @property
-    def columns(self) -> tuple:
+    def columns(self) -> Tuple[str, ...]:
         """The names of the columns."""
         return tuple(self._columns)
 
@@ -73,16 +73,16 @@ class Table(Mapping):
         except KeyError:
             raise AttributeError(f"the table has no column {name!r}") from None
 
-    def __dir__(self):
+    def __dir__(self) -> List[str]:
         return [*super().__dir__(), *(name for name in self._columns if name.isidentifier())]
 
-    def __eq__(self, other):
+    def __eq__(self, other: object) -> bool:
         if not isinstance(other, Table):
             return NotImplemented
         return (list(self) == list(other) and self.units == other.units
                 and all(_equal(one, another) for one, another in zip(self.values(), other.values())))
 
-    __hash__ = None
+    __hash__ = None  # type: ignore[assignment]
 
     @property
     def array(self) -> Any:
@@ -97,10 +97,12 @@ class Table(Mapping):
             result[name] = column
         return result
 
-    def __array__(self, dtype=None):
+    def __array__(self, dtype: Any = None, copy: Any = None) -> Any:
+        if copy is False:
+            raise ValueError("the array of a table is always a copy")
         return self.array if dtype is None else self.array.astype(dtype)
 
-    def rows(self, chosen: Any) -> "Table":
+    def rows(self, chosen: Any) -> Table:
         """The rows that truths, indices or a slice choose. Numbers chosen by a slice are views, not copies. InputError for
         truths that are not as many as there are rows, and for indices beyond them."""
         import numpy
@@ -110,7 +112,7 @@ class Table(Mapping):
             if chosen.size == 0:
                 chosen = chosen.astype(int)
 
-        def of(column):
+        def of(column: Any) -> Any:
             if not isinstance(column, list):
                 return column[chosen]
             if isinstance(chosen, slice):
@@ -122,17 +124,15 @@ class Table(Mapping):
         try:
             columns = [of(column) for column in self.values()]
         except IndexError as error:
-            from ._errors import InputError
-
             raise InputError(f"rows cannot be chosen so: {error}",
                              f"give a slice, {len(self)} truths, or indices below {len(self)}") from None
         return Table(self._columns, columns, [self.units.get(name, "") for name in self])
 
-    def record(self, number: int) -> dict:
+    def record(self, number: int) -> Dict[str, Any]:
         """One row: a dict of Python's numbers and texts. IndexError where there is none."""
         return {name: _plain(column[number]) for name, column in self._columns.items()}
 
-    def records(self) -> Iterator[dict]:
+    def records(self) -> Iterator[Dict[str, Any]]:
         """The rows one after the other, each a dict of Python's numbers and texts."""
         lists = [column if isinstance(column, list) else column.tolist() for column in self.values()]
         return (dict(zip(self._columns, row)) for row in zip(*lists))
@@ -157,12 +157,12 @@ class Table(Mapping):
         }
         return xarray.Dataset(variables)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         names = list(self._columns)
         shown = ", ".join(names) if len(names) <= 12 else ", ".join([*names[:11], f"and {len(names) - 11} more"])
         return f"<Table of {len(self)} {'row' if len(self) == 1 else 'rows'}: {shown}>"
 
-    def _repr_html_(self):
+    def _repr_html_(self) -> str:
         total = len(self)
         rows = [*range(total)] if total <= 2 * _SHOWN else [*range(_SHOWN), None, *range(total - _SHOWN, total)]
         head = "".join(
@@ -177,9 +177,9 @@ class Table(Mapping):
         return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(lines)}</tbody></table><p>{count}</p>"
 
 
-def _distinct(names: Iterable[str]) -> list:
+def _distinct(names: Iterable[str]) -> List[str]:
     """The names; one that another column has already gets a suffix, as in result files."""
-    result: list = []
+    result: List[str] = []
     for name in names:
         distinct, number = name, 2
         while distinct in result:
@@ -188,20 +188,20 @@ def _distinct(names: Iterable[str]) -> list:
     return result
 
 
-def _equal(one, another) -> bool:
+def _equal(one: Any, another: Any) -> bool:
     import numpy
 
     if isinstance(one, list) or isinstance(another, list):
         return len(one) == len(another) and all(a == b for a, b in zip(one, another))
-    return numpy.array_equal(one, another, equal_nan=one.dtype.kind in "fc" and another.dtype.kind in "fc")
+    return bool(numpy.array_equal(one, another, equal_nan=one.dtype.kind in "fc" and another.dtype.kind in "fc"))
 
 
-def _plain(value):
+def _plain(value: Any) -> Any:
     """A number of numpy as one of Python."""
     return value.item() if hasattr(value, "item") else value
 
 
-def _cell(value) -> str:
+def _cell(value: Any) -> str:
     if value is None or value != value:
         return ""
     return f"{value:.7g}" if isinstance(value, float) else html.escape(str(value))

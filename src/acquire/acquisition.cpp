@@ -1,6 +1,8 @@
 #include "graze/acquire/acquisition.hpp"
 
 #include "acquire/instrument_failure.hpp"
+#include "base/enumerator_name.hpp"
+#include "graze/acquire/serial_line.hpp"
 #include "graze/acquire/settling.hpp"
 
 #include <algorithm>
@@ -204,6 +206,26 @@ private:
 AcquisitionReport acquire(const Experiment& experiment, InstrumentLine& generator, SampleDevice& device,
                           RecordFolder& folder, const AcquisitionOptions& options) {
     return ExperimentRun(experiment, generator, device, folder, options).run();
+}
+
+std::string_view name_of(AcquisitionStage stage) {
+    constexpr std::string_view names[] = {"walking", "setting", "settling", "recording"};
+    return enumerator_name<AcquisitionStage>(names, stage, "recording");
+}
+
+SafeOutput make_safe(const Experiment& experiment) {
+    SafeOutput output;
+    try {
+        std::shared_ptr<InstrumentLine> line = open_generator_line(experiment.serial);
+        GeneratorOptions options = experiment.generator;
+        options.interrupted = nullptr;
+        GeneratorClient client(std::move(line), options);
+        output.safe = client.make_safe(experiment.safe, output.problem);
+        output.off = !output.safe && client.is_switched_off();
+    } catch (const std::exception& error) {
+        output.problem = error.what();
+    }
+    return output;
 }
 
 } // namespace graze

@@ -49,6 +49,16 @@ void BenchSettings::validate() const {
     require_positive(tolerance, "the tolerance");
 }
 
+std::vector<std::string> usual_channels(const Model& model) {
+    std::vector<std::string> texts;
+    if (const auto voltage = model.find_quantity("voltage"))
+        texts.push_back(fmt::format("V=voltage:{}", model.quantities[*voltage].unit));
+    for (const State& state : model.states)
+        if (!state.period)
+            texts.push_back(state.unit.empty() ? state.name : fmt::format("{0}={0}:{1}", state.name, state.unit));
+    return texts;
+}
+
 BenchChannel bench_channel(const Model& model, const std::string& text, const std::string& asked) {
     const Place place{asked, 0, 0};
     const std::size_t equals = text.find('='), colon = text.rfind(':');

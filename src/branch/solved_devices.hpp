@@ -1,17 +1,20 @@
 #pragma once
 
-#include "graze/branch/yield.hpp"
+#include "graze/branch/device_solver.hpp"
 
-#include <cstddef>
-#include <functional>
+#include <string>
+#include <vector>
 
 namespace graze {
 
-/// Told of what has been solved for each device that was found: by any thread, by several at once.
-using SolvedDevice = std::function<void(std::size_t device, const LocatedSolution& solution)>;
+struct ExaminedYield {
+    Yield yield;
+    std::vector<std::string> examined; ///< what the examination has found of each device; empty where it found nothing
+};
 
-/// The yield of given devices, each of which is looked at more closely by the thread that has it.
-Yield yield_of(const System& system, const SpecialPoint& point, ParameterId control, const MadeDevices& devices,
-               const YieldSettings& settings, SolvedDevice solved);
+/// The yield of given devices, each of which is examined when it has been found.
+ExaminedYield examined_yield_of(const System& system, const SpecialPoint& point, ParameterId control,
+                                const MadeDevices& devices, const YieldSettings& settings,
+                                DeviceExamination examination);
 
 } // namespace graze

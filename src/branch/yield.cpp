@@ -45,87 +45,82 @@ void require_share(double share, const char* what) {
         throw InputError(fmt::format("{} {} is out of range", what, share), "choose one between 0 and 1");
 }
 
-/// Solves for all devices, on several threads.
-struct DeviceSolver {
-    /// Returns the changes of a device's parameters from the nominal ones; empty: the device cannot be made.
-    using Changes = std::function<std::vector<double>(std::size_t device, const std::vector<double>& nominal)>;
-
-    const System& system;
-    const SpecialPoint& point;
-    ParameterId control;
-    std::vector<ParameterId> others;
-    std::size_t devices;
-    Changes changes;
-    const YieldSettings& settings;
-    SolvedDevice solved{};
-    LocatedValue nominal = make_solver();
-    std::vector<std::string> problems{};
-    std::atomic<std::size_t> next{0}, done{0};
-    Turns turns{};
-    std::function<bool()> interrupted = turns.asking(settings.interrupted);
-    std::function<void(std::size_t)> progress = turns.taking(settings.progress);
-    ThreadTeam team{};
-
-    Yield solve_all() {
-        Yield result;
-        result.nominal = nominal.value();
-        result.devices.resize(devices);
-        problems.resize(devices);
+/// Solves for devices on several threads.
+class DeviceThreads {
+public:
+    DeviceThreads(const AskedDevices& devices, int jobs) : devices_(devices) {
         constexpr std::size_t enough = 32; // number of devices that justifies a thread
-        const std::size_t jobs = std::clamp<std::size_t>(devices / enough, 1, static_cast<std::size_t>(settings.jobs));
-        team.run(jobs, [&](bool calling) {
-            if (calling)
-                return work(nominal, result, true);
-            LocatedValue one = make_solver();
-            work(one, result, false);
+        threads_ = std::clamp<std::size_t>(devices.count / enough, 1, static_cast<std::size_t>(jobs));
+    }
+    /// @param sink called by several threads at once, for different devices
+    /// @param progress called by the calling thread
+    /// @return false when it was interrupted
+    bool solve_all(const std::function<bool()>& interrupted, const DeviceSink& sink,
+                   const std::function<void(std::size_t)>& progress) {
+        team_.run(threads_, [&](bool calling) {
+            for (std::size_t i; !team_.is_stopped() && (i = next_++) < devices_.count;) {
+                if (interrupted && interrupted())
+                    return team_.stop();
+                SolvedDevice solved = devices_.solver.solve(devices_.changes(i), interrupted);
+                sink(i, solved);
+                const std::size_t finished = ++done_;
+                if (calling && progress)
+                    progress(finished);
+            }
         });
-        result.interrupted = team.is_stopped();
-        std::map<std::string, std::size_t> counts;
-        for (const std::string& problem : problems)
-            if (!problem.empty())
-                ++counts[problem];
-        result.problems.assign(counts.begin(), counts.end());
-        std::stable_sort(result.problems.begin(), result.problems.end(),
-                         [](const auto& a, const auto& b) { return a.second > b.second; });
-        return result;
+        return !team_.is_stopped();
     }
 
-    LocatedValue make_solver() const { return {system, point, control, others, settings.solver}; }
-
-    void work(LocatedValue& solver, Yield& result, bool reports_progress) {
-        for (std::size_t i; !team.is_stopped() && (i = next++) < devices;) {
-            if (interrupted && interrupted())
-                return team.stop();
-            problems[i] = solve(solver, i, result.devices[i]);
-            const std::size_t finished = ++done;
-            if (reports_progress && progress)
-                progress(finished);
-        }
-    }
-
-    /// @return why the device was not found; empty otherwise
-    std::string solve(LocatedValue& solver, std::size_t i, Device& device) const {
-        device.outcome = DeviceOutcome::failed;
-        device.linear = solver.value();
-        std::vector<double> values = solver.values();
-        const std::vector<double> moves = changes(i, values);
-        if (moves.size() != values.size())
-            return "the device cannot be made";
-        for (std::size_t k = 0; k < values.size(); ++k) {
-            values[k] += moves[k];
-            device.linear += solver.derivatives()[k] * moves[k];
-        }
-        const LocatedSolution found = solver(values);
-        if (found.found)
-            device.outcome = found.admissible ? DeviceOutcome::found : DeviceOutcome::inadmissible;
-        if (device.outcome != DeviceOutcome::found)
-            return found.problem.empty() ? "the model would not follow the orbit" : found.problem;
-        device.value = found.value;
-        if (solved)
-            solved(i, found);
-        return {};
-    }
+private:
+    const AskedDevices& devices_;
+    std::size_t threads_;
+    std::atomic<std::size_t> next_{0}, done_{0};
+    ThreadTeam team_;
 };
+
+/// Sets why devices were not found, the most frequent reason first.
+void set_problems(Yield& result, const std::vector<std::string>& problems) {
+    std::map<std::string, std::size_t> counts;
+    for (const std::string& problem : problems)
+        if (!problem.empty())
+            ++counts[problem];
+    result.problems.assign(counts.begin(), counts.end());
+    std::stable_sort(result.problems.begin(), result.problems.end(),
+                     [](const auto& a, const auto& b) { return a.second > b.second; });
+}
+
+/// Solves for all devices, by threads or elsewhere.
+ExaminedYield solve_all(const AskedDevices& devices, const YieldSettings& settings) {
+    ExaminedYield result;
+    Yield& yield = result.yield;
+    yield.nominal = devices.solver.value();
+    yield.devices.resize(devices.count);
+    result.examined.resize(devices.solver.examination().examine ? devices.count : 0);
+    std::vector<std::string> problems(devices.count);
+    const DeviceSink sink = [&](std::size_t i, SolvedDevice& solved) {
+        yield.devices[i] = solved.device;
+        problems[i] = std::move(solved.problem);
+        if (!result.examined.empty())
+            result.examined[i] = std::move(solved.examined);
+    };
+    const Turns turns;
+    const std::function<bool()> interrupted = turns.asking(settings.interrupted);
+    const std::function<void(std::size_t)> progress = turns.taking(settings.progress);
+    if (settings.elsewhere) {
+        std::size_t done = 0;
+        yield.interrupted = !settings.elsewhere(devices, interrupted, [&](std::size_t i, SolvedDevice& solved) {
+            require_index(i, devices.count, "device");
+            sink(i, solved);
+            ++done;
+            if (progress)
+                progress(done);
+        });
+    } else {
+        yield.interrupted = !DeviceThreads(devices, settings.jobs).solve_all(interrupted, sink, progress);
+    }
+    set_problems(yield, problems);
+    return result;
+}
 
 void count(Yield& result) {
     const auto number_of = [&](DeviceOutcome outcome) {
@@ -204,7 +199,7 @@ void set_shares(Yield& result, const YieldSettings& settings) {
     result.linear_within = static_cast<double>(linear) / static_cast<double>(result.made);
 }
 
-void set_contributions(Yield& result, const LocatedValue& nominal, const std::vector<Tolerance>& tolerances) {
+void set_contributions(Yield& result, const DeviceSolver& nominal, const std::vector<Tolerance>& tolerances) {
     double sum = 0; // hypot avoids overflow and underflow in any units
     for (std::size_t k = 0; k < tolerances.size(); ++k) {
         const double one = nominal.derivatives()[k] * tolerances[k].deviation();
@@ -304,26 +299,27 @@ Yield yield_of(const System& system, const SpecialPoint& point, ParameterId cont
     std::vector<ParameterId> others;
     for (const Tolerance& one : settings.tolerances)
         others.push_back(one.parameter);
-    const auto drawn_changes = [&](std::size_t device, const std::vector<double>& nominal) {
-        std::vector<double> changes(nominal.size());
+    const DeviceSolver solver(system, point, control, others, settings.solver);
+    const auto drawn_changes = [&](std::size_t device) {
+        std::vector<double> changes(others.size());
         for (std::size_t k = 0; k < changes.size(); ++k)
             changes[k] = random_deviation(settings.tolerances[k], settings.seed, device, k);
         return changes;
     };
-    DeviceSolver solver{system, point, control, others, settings.devices, drawn_changes, settings};
-    Yield result = solver.solve_all();
-    set_contributions(result, solver.nominal, settings.tolerances);
+    Yield result = solve_all({solver, settings.devices, drawn_changes}, settings).yield;
+    set_contributions(result, solver, settings.tolerances);
     add_statistics(result, settings);
     return result;
 }
 
 Yield yield_of(const System& system, const SpecialPoint& point, ParameterId control, const MadeDevices& devices,
                const YieldSettings& settings) {
-    return yield_of(system, point, control, devices, settings, SolvedDevice());
+    return examined_yield_of(system, point, control, devices, settings, {}).yield;
 }
 
-Yield yield_of(const System& system, const SpecialPoint& point, ParameterId control, const MadeDevices& devices,
-               const YieldSettings& settings, SolvedDevice solved) {
+ExaminedYield examined_yield_of(const System& system, const SpecialPoint& point, ParameterId control,
+                                const MadeDevices& devices, const YieldSettings& settings,
+                                DeviceExamination examination) {
     require_number_of(devices.values.size());
     require_common(settings);
     for (const std::vector<double>& values : devices.values)
@@ -331,17 +327,16 @@ Yield yield_of(const System& system, const SpecialPoint& point, ParameterId cont
             throw InputError(
                 fmt::format("a device has {} values of {} parameters", values.size(), devices.parameters.size()),
                 "give one for each");
-    const auto changes_of = [&](std::size_t device, const std::vector<double>& nominal) {
+    const DeviceSolver solver(system, point, control, devices.parameters, settings.solver, std::move(examination));
+    const auto changes_of = [&](std::size_t device) {
         std::vector<double> changes = devices.values[device];
         for (std::size_t k = 0; k < changes.size(); ++k)
-            changes[k] -= nominal[k];
+            changes[k] -= solver.values()[k];
         return changes;
     };
-    DeviceSolver solver{system,     point,    control,          devices.parameters, devices.values.size(),
-                        changes_of, settings, std::move(solved)};
-    Yield result = solver.solve_all();
-    result.linear_deviation = deviation_of_linear(result);
-    add_statistics(result, settings);
+    ExaminedYield result = solve_all({solver, devices.values.size(), changes_of}, settings);
+    result.yield.linear_deviation = deviation_of_linear(result.yield);
+    add_statistics(result.yield, settings);
     return result;
 }
 

@@ -146,6 +146,7 @@ private:
             return;
         }
         settings.jobs = options_.jobs;
+        settings.elsewhere = options_.elsewhere;
         settings.interrupted = options_.interrupted;
         if (options_.progress)
             settings.progress = [this](std::size_t devices) {

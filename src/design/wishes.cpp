@@ -177,6 +177,7 @@ std::optional<double> make_devices(MetWishes& result, WishMaker& maker, const De
         return std::nullopt;
     YieldSettings settings = yield_settings_of(design, device->point.solution.orbit);
     settings.jobs = options.jobs;
+    settings.elsewhere = options.elsewhere;
     settings.interrupted = options.interrupted;
     const Yield yield = yield_of(device->system, device->point, device->control, settings);
     if (yield.interrupted)

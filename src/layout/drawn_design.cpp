@@ -129,6 +129,7 @@ std::optional<DrawnDesign> drawn_design(const DesignedDevice& designed, const st
     const std::optional<TripPoint> before = designed_trip(*trip, found);
     WishesOptions wishing;
     wishing.jobs = options.jobs;
+    wishing.elsewhere = options.elsewhere;
     wishing.interrupted = options.interrupted;
     const MetWishes wishes = with_place(drawn.approach.place, [&] { return wishes_at(drawn, *trip, wishing); });
     std::optional<MetWishes> wishes_before;

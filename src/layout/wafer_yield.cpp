@@ -3,7 +3,7 @@
 #include "base/turns.hpp"
 #include "branch/solved_devices.hpp"
 #include "graze/base/input_error.hpp"
-#include "graze/design/trip_times.hpp"
+#include "layout/wafer_examination.hpp"
 
 #include <fmt/format.h>
 
@@ -64,15 +64,14 @@ public:
         yield.jobs = settings_->jobs;
         yield.interrupted = interrupted_;
         yield.progress = turns_.taking(settings_->progress);
-        result_.yield = yield_of(
-            trip_->system, trip_->point, trip_->control, made, yield,
-            [this](std::size_t i, const LocatedSolution& solution) { classify(result_.devices[i], solution); });
+        yield.elsewhere = settings_->elsewhere;
+        ExaminedYield solved =
+            examined_yield_of(trip_->system, trip_->point, trip_->control, made, yield, examination());
+        result_.yield = std::move(solved.yield);
         if (interrupted_ && interrupted_())
             result_.yield.interrupted = true;
-        for (std::size_t i = 0; i < result_.devices.size(); ++i) {
-            result_.devices[i].outcome = result_.yield.devices[i].outcome;
-            result_.devices[i].value = result_.yield.devices[i].value;
-        }
+        for (std::size_t i = 0; i < result_.devices.size(); ++i)
+            tell(result_.devices[i], result_.yield.devices[i], solved.examined[i]);
         count_classes();
         return std::move(result_);
     }
@@ -154,20 +153,24 @@ private:
             result_.overshoot = *std::max_element(design_->trip.overshoots.begin(), design_->trip.overshoots.end());
     }
 
-    /// Classifies a device; called from any thread, each for its own devices.
-    void classify(WaferDevice& device, const LocatedSolution& solution) const {
-        const TripPoint moved = moved_to(*trip_, solution.orbit);
-        const TripClass found = class_at(moved);
-        device.found = found.outcome;
-        if (!result_.overshoot || found.outcome == GrazingOutcome::persists)
-            return;
+    /// Each device is classified, and its trip time is computed.
+    DeviceExamination examination() const {
         TripRequest request = design_->trip;
-        request.overshoots = {*result_.overshoot};
-        const TripTimes times = trip_times(moved, solution.orbit, found, request, interrupted_);
-        if (times.rows.empty())
+        request.overshoots.clear();
+        if (result_.overshoot)
+            request.overshoots.push_back(*result_.overshoot);
+        return wafer_examination_of(trip_->system, trip_->point, trip_->control,
+                                    wafer_request(trip_->fold_side, request));
+    }
+
+    static void tell(WaferDevice& device, const Device& solved, const std::string& examined) {
+        device.outcome = solved.outcome;
+        device.value = solved.value;
+        if (solved.outcome != DeviceOutcome::found)
             return;
-        if (const TripTime* best = times.rows.front().best())
-            device.trip_time = best->time;
+        const ExaminedWaferDevice found = read_examined(examined);
+        device.found = found.found;
+        device.trip_time = found.trip_time;
     }
 
     void count_classes() {

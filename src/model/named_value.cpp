@@ -71,4 +71,21 @@ double value_of_text(const Model& model, std::string_view text, const Place& pla
     return value;
 }
 
+namespace {
+
+/// The place of a text that is given as the value of an option.
+Place place_of(std::string_view text, const std::string& option) {
+    return {fmt::format("{} {}", option, text), 1, 1};
+}
+
+} // namespace
+
+NamedValue requested_quantity(const Model& model, const std::string& text, const std::string& option) {
+    return named_value(model, text, place_of(text, option));
+}
+
+double value_of(const Model& model, std::string_view text, const std::string& option) {
+    return value_of_text(model, text, place_of(text, option));
+}
+
 } // namespace graze

@@ -13,6 +13,21 @@ constexpr std::size_t most_recorded = 2'000'000;
 
 } // namespace
 
+std::size_t MotionPanelChoice::column(NamedValue quantity) {
+    const auto known = std::ranges::find(columns, quantity.name, &NamedValue::name);
+    if (known != columns.end())
+        return static_cast<std::size_t>(known - columns.begin());
+    columns.push_back(std::move(quantity));
+    return columns.size() - 1;
+}
+
+std::vector<bool> usual_marks(const Model& model) {
+    std::vector<bool> marked;
+    for (const Event& event : model.events)
+        marked.push_back(event.kind == EventKind::barrier && is_met_by_motion(model, event));
+    return marked;
+}
+
 MotionRecorder::MotionRecorder(const Simulation& simulation, MotionPanelChoice contents)
     : simulation_(simulation), contents_(std::move(contents)), evaluate_(simulation.model(), contents_.columns) {
     state_.resize(simulation.system().states());

@@ -41,6 +41,8 @@ public:
                 figure.panels.back().rows = rows_of(i, portraits.size(), histories.size());
             }
         }
+        if (!recorder_->is_complete() && !figure.panels.empty())
+            figure.panels.front().notes.emplace_back("only the beginning of the motion is shown");
         for (const auto& parameter : recorder_->model().parameters)
             figure.symbols.push_back(parameter.name);
         for (const auto& state : recorder_->model().states)

@@ -115,12 +115,6 @@ Figure ramp_figure(const LossPoint& point, const std::vector<RampRow>& rows, con
     return {.panels = {std::move(panel)}};
 }
 
-std::string unit_of_rate(const LossPoint& point) {
-    const std::string &unit = point.unit, &time = point.model().time_unit;
-    return unit.empty() && time.empty() ? ""
-                                        : fmt::format("{}/{}", unit.empty() ? "1" : unit, time.empty() ? "1" : time);
-}
-
 Figure wave_figure(const LossPoint& point, const TripOrigin& origin, const std::vector<double>& amplitudes,
                    const std::vector<TripTime>& trips, const std::string& end) {
     FigurePanel panel = trip_panel("amplitude of " + point.name, point.unit, "time", point.model().time_unit);

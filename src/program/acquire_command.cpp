@@ -67,13 +67,9 @@ public:
     void progress(const AcquisitionProgress& progress) {
         if (!line_.is_due())
             return;
-        const char* what = progress.stage == AcquisitionStage::walking    ? "walking"
-                           : progress.stage == AcquisitionStage::setting  ? "setting"
-                           : progress.stage == AcquisitionStage::settling ? "settling"
-                                                                          : "recording";
         std::string text = fmt::format("record {} of {}: {} Hz, {} V {}, {}", progress.level.number, progress.levels,
                                        progress.level.frequency, progress.level.amplitude,
-                                       direction_name(progress.level.direction), what);
+                                       direction_name(progress.level.direction), name_of(progress.stage));
         if (progress.time > 0)
             text += fmt::format(" {:.0f} s", progress.time);
         if (recorded_ > 0)

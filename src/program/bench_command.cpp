@@ -13,17 +13,6 @@ namespace graze {
 
 namespace {
 
-/// Channels without --channel: the quantity `voltage`, and all states that are not cyclic.
-std::vector<std::string> usual_channels(const Model& model) {
-    std::vector<std::string> texts;
-    if (const auto voltage = model.find_quantity("voltage"))
-        texts.push_back(fmt::format("V=voltage:{}", model.quantities[*voltage].unit));
-    for (const State& state : model.states)
-        if (!state.period)
-            texts.push_back(state.unit.empty() ? state.name : fmt::format("{0}={0}:{1}", state.name, state.unit));
-    return texts;
-}
-
 /// Sets a property of channels from texts NAME=VALUE.
 void set_each(BenchSettings& settings, const std::vector<std::string>& texts, const char* option,
               double BenchChannel::*property) {

@@ -1,7 +1,6 @@
 #include "graze/base/input_error.hpp"
-#include "graze/base/with_place.hpp"
 #include "graze/design/design_folder.hpp"
-#include "graze/design/design_report.hpp"
+#include "graze/design/finished_design.hpp"
 #include "graze/layout/verilog_a.hpp"
 #include "graze/model/model_file.hpp"
 #include "graze/picture/design_page.hpp"
@@ -16,7 +15,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -146,14 +144,17 @@ void tell_yield_of_design(const Yield& yield, const Console& console) {
                                    yield.problems[i].first);
 }
 
-void write_all(OutputFolder& place, const Design& first, const Design& design, const TripPoint& trip,
-               const DesignReport& report, const DesignArguments& arguments, const Console& console) {
+void write_all(OutputFolder& place, const FinishedDesign& finished, const DesignArguments& arguments,
+               const Console& console) {
+    const Design& design = finished.device;
+    const TripPoint& trip = *finished.trip;
+    const DesignReport& report = finished.report;
     const std::vector<NamedTable> tables = tables_of(design, trip, report);
     for (const NamedTable& table : tables)
         place.write(table.name + ".csv", csv_text(table.table));
     place.write(report_name, report_json(design, tables, GRAZE_VERSION));
     const Model device = model_of_device(trip);
-    place.write(device_model_name, device_heading(first) + write_model(device));
+    place.write(device_model_name, device_heading(finished.written) + write_model(device));
     if (has_verilog_a(device))
         place.write(circuit_module, verilog_a_text(device, design.name, "graze " GRAZE_VERSION));
     if (!arguments.no_pictures) {
@@ -167,31 +168,6 @@ void write_all(OutputFolder& place, const Design& first, const Design& design, c
     }
     place.remove_others();
     place.finish();
-}
-
-MetWishes find_device(const Design& design, const TripPoint& trip, const DesignReportOptions& options) {
-    WishesOptions wishes;
-    wishes.jobs = options.jobs;
-    wishes.interrupted = options.interrupted;
-    wishes.progress = [&](std::size_t devices) {
-        options.progress(fmt::format("{} devices tried for what is wanted", devices));
-    };
-    return meet_wishes(design, trip, wishes);
-}
-
-/// True when the finished device, followed from the start, trips at another point than the one it was designed for.
-bool trips_elsewhere(const TripPoint& trip, const DesignReport& report) {
-    constexpr double alike = 1e-6; // far above the difference between two solutions of the same problem
-    return report.wishes && report.wishes->trip_value &&
-           !(std::abs(*report.wishes->trip_value - trip.value()) <= alike * std::abs(trip.value()));
-}
-
-/// True when the user should look at the numbers: the exit code says so.
-bool is_irregular(const Design& design, const DesignReport& report) {
-    const bool other_class = design.wanted.outcome && report.found.outcome != *design.wanted.outcome;
-    return other_class || report.trial.outcome == TrialOutcome::contradicted ||
-           (report.yield && report.yield->failed > 0) ||
-           (report.wishes && report.wishes->found.outcome != WishOutcome::met);
 }
 
 int interrupted(const Console& console) {
@@ -223,47 +199,28 @@ int design_command(const DesignArguments& arguments, const Console& console) {
     const InterruptGuard guard;
     StatusLine line(console, console.terminal);
     const DesignReportOptions options = interactive_options(arguments.jobs, line);
-    std::optional<TripPoint> trip = locate_trip(first, place.path(results_name), options);
-    if (!trip)
+    const FinishedDesign finished =
+        finish_design(first, {place.path(results_name), [&] { return place.designed(); }}, options);
+    if (finished.interrupted)
         return interrupted(console);
-    std::optional<MetWishes> wishes;
-    Design design = first;
-    if (!first.wanted.is_empty()) {
-        wishes = with_place(first.approach.place, [&] { return find_device(first, *trip, options); });
-        if (wishes->found.outcome == WishOutcome::interrupted)
-            return interrupted(console);
-        if (wishes->found.outcome != WishOutcome::nowhere) {
-            // Follow the finished device from the start too: it may trip earlier, at another point.
-            design = with_values(first, wishes->values());
-            trip = locate_trip(design, place.designed(), options);
-            if (!trip)
-                return interrupted(console);
-        }
-    }
-    DesignReport report = with_place(design.approach.place, [&] { return report_of(design, *trip, options); });
-    report.wishes = std::move(wishes);
-    if (report.interrupted)
-        return interrupted(console);
-    write_all(place, first, design, *trip, report, arguments, console);
+    write_all(place, finished, arguments, console);
+    const DesignReport& report = finished.report;
     if (!arguments.quiet) {
-        deliver(facts_of(design, *trip, report), arguments.output, {}, console);
+        deliver(facts_of(finished.device, *finished.trip, report), arguments.output, {}, console);
         if (arguments.output.format == TableFormat::table)
             for (const std::string& path : place.written())
                 console.out << path << '\n';
     }
     if (report.yield)
         tell_yield_of_design(*report.yield, console);
-    const bool untried =
-        report.trial.outcome == TrialOutcome::undecided && report.found.outcome != GrazingOutcome::undecided;
-    if (untried)
+    if (finished.is_untried())
         console.err << fmt::format("graze: the class is not checked by simulation: {}\n", report.trial.reason);
-    const bool elsewhere = trips_elsewhere(*trip, report);
-    if (elsewhere)
+    if (finished.trips_elsewhere())
         console.err << fmt::format(
             "graze: the device was made to trip at {:.6g}, but on its way there it comes first to the "
             "trip point at {:.6g}: change approach.range, approach.from or what is wanted\n",
-            *report.wishes->trip_value, trip->value());
-    return untried || elsewhere || is_irregular(design, report) ? exit_irregular : exit_success;
+            *report.wishes->trip_value, finished.trip->value());
+    return finished.warnings().empty() ? exit_success : exit_irregular;
 }
 
 } // namespace graze

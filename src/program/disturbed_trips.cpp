@@ -75,13 +75,8 @@ void ramp(AskedTrips& asked) {
         return ramped_trips(point, rates, from, asked.trip.end.end, options_of(asked));
     });
     note_rows(asked, rates.size(), rows.size());
-    for (const RampRow& row : rows) {
-        const TripTime& trip = row.ramped.trip;
-        if (!trip.ended)
-            asked.lacks.push_back(fmt::format("the ramp of {:g} has not come to its end: {}", row.rate,
-                                              why_not(trip, "give more --cycles, or another end by --until")));
-    }
-    asked.table = ramp_table(point, rows, unit_of_rate(point));
+    asked.lacks = unfinished_trips(rows, "give more --cycles, or another end by --until");
+    asked.table = ramp_table(point, rows);
     asked.figure = ramp_figure(point, rows, asked.trip.end.words);
 }
 
@@ -96,13 +91,7 @@ void wave(AskedTrips& asked) {
         return swung_trips(point, origin, amplitudes, period, asked.trip.end.end, options_of(asked));
     });
     note_rows(asked, amplitudes.size(), trips.size());
-    for (std::size_t i = 0; i < trips.size(); ++i) {
-        const TripTime& trip = trips[i];
-        if (!(trip.ended || trip.ending == "end-time"))
-            asked.lacks.push_back(
-                fmt::format("the wave of {:g} has not been simulated to its end: {}", amplitudes[i],
-                            why_not(trip, "look at whether the parameter has a meaning as far as it swings")));
-    }
+    asked.lacks = unfinished_trips(amplitudes, trips);
     asked.table = wave_table(point, amplitudes, trips);
     asked.figure = wave_figure(point, origin, amplitudes, trips, asked.trip.end.words);
 }
@@ -133,15 +122,7 @@ void noise(AskedTrips& asked) {
     const std::vector<NoisyTrips> all = with_place(
         {"--noise", 0, 0}, [&] { return noisy_trips(point, origin, levels, asked.trip.end.end, settings, progress); });
     note_rows(asked, levels.size(), all.size());
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        const NoisyTrips& trips = all[i];
-        const double level = levels[i];
-        for (const auto& [ending, count] : trips.failures)
-            asked.lacks.push_back(fmt::format("{} of {} motions under the noise {:g} are not counted: they ended by "
-                                              "{}; look at whether the parameter "
-                                              "has a meaning as far as the noise takes it",
-                                              count, trips.motions, level, ending));
-    }
+    asked.lacks = unfinished_trips(levels, all);
     asked.table = noise_table(point, levels, all);
     asked.figure = noise_figure(point, levels, all, settings);
 }

@@ -1,5 +1,6 @@
 #include "graze/base/input_error.hpp"
 #include "graze/grazing/trial.hpp"
+#include "graze/results/table_text.hpp"
 #include "graze/results/touch_facts.hpp"
 #include "program/commands.hpp"
 
@@ -13,10 +14,7 @@ namespace {
 JsonObject values_of(const Table& facts) {
     JsonObject values;
     for (std::size_t row = 0; row < facts.rows(); ++row)
-        if (facts.is_text(row, 1))
-            values.add(facts.text(row, 0), facts.text(row, 1));
-        else
-            values.add(facts.text(row, 0), facts.number(row, 1));
+        add_cell(values, facts.text(row, 0), facts, row, 1);
     return values;
 }
 

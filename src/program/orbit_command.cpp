@@ -3,6 +3,7 @@
 #include "graze/picture/result_picture.hpp"
 #include "graze/results/orbit_table.hpp"
 #include "graze/results/stored_orbit.hpp"
+#include "graze/results/table_text.hpp"
 #include "program/commands.hpp"
 #include "program/drawing.hpp"
 #include "program/values.hpp"
@@ -17,20 +18,6 @@ namespace graze {
 namespace {
 
 constexpr std::size_t default_samples = 200;
-
-/// The rows of a table; missing numbers are null.
-std::vector<JsonObject> rows_of(const Table& table) {
-    std::vector<JsonObject> rows;
-    for (std::size_t row = 0; row < table.rows(); ++row) {
-        JsonObject& object = rows.emplace_back();
-        for (std::size_t column = 0; column < table.columns().size(); ++column)
-            if (table.is_text(row, column))
-                object.add(table.columns()[column].name, table.text(row, column));
-            else
-                object.add(table.columns()[column].name, table.number(row, column));
-    }
-    return rows;
-}
 
 /// Real and imaginary parts of multipliers; infinite ones as a text. Multipliers do not exist after a contact without
 /// speed: the list is empty then.
@@ -71,9 +58,9 @@ JsonObject orbit_heading(const ResultFile& file, const StoredOrbit& stored) {
     heading.add("reason", solution.certificate.reason);
     heading.add("detail", record.point.detail);
     heading.add("residual", solution.residual);
-    heading.add("segments", rows_of(segment_table(model, solution)));
-    heading.add("minima", rows_of(minimum_table(model, solution)));
-    heading.add("end_values", rows_of(end_value_table(model, solution)));
+    heading.add("segments", json_rows(segment_table(model, solution), MissingCells::null));
+    heading.add("minima", json_rows(minimum_table(model, solution), MissingCells::null));
+    heading.add("end_values", json_rows(end_value_table(model, solution), MissingCells::null));
     return heading;
 }
 

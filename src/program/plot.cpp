@@ -16,22 +16,13 @@ namespace graze {
 
 namespace {
 
-std::size_t column_of(MotionPanelChoice& contents, NamedValue quantity) {
-    const auto known = std::find_if(contents.columns.begin(), contents.columns.end(),
-                                    [&](const NamedValue& other) { return other.name == quantity.name; });
-    if (known != contents.columns.end())
-        return static_cast<std::size_t>(known - contents.columns.begin());
-    contents.columns.push_back(std::move(quantity));
-    return contents.columns.size() - 1;
-}
-
 void choose_panels(const Model& model, const SimulateArguments& arguments, MotionPanelChoice& contents) {
     std::vector<std::string> histories = arguments.quantities;
     contents.chosen = !histories.empty();
     if (histories.empty())
         histories = plain_states(model);
     for (const std::string& text : histories)
-        contents.histories.push_back(column_of(contents, requested_quantity(model, text, "--quantity")));
+        contents.histories.push_back(contents.column(requested_quantity(model, text, "--quantity")));
     std::vector<std::string> pairs = split_list(arguments.portraits);
     if (pairs.empty())
         pairs = default_portrait(model);
@@ -39,8 +30,8 @@ void choose_panels(const Model& model, const SimulateArguments& arguments, Motio
         throw InputError({"--portrait", 0, 0}, "a phase portrait needs two quantities",
                          "write them as X,Y, for example --portrait q,v");
     for (std::size_t i = 0; i < pairs.size(); i += 2) {
-        const std::size_t x = column_of(contents, requested_quantity(model, pairs[i], "--portrait"));
-        const std::size_t y = column_of(contents, requested_quantity(model, pairs[i + 1], "--portrait"));
+        const std::size_t x = contents.column(requested_quantity(model, pairs[i], "--portrait"));
+        const std::size_t y = contents.column(requested_quantity(model, pairs[i + 1], "--portrait"));
         contents.portraits.emplace_back(x, y);
     }
     if (contents.histories.empty() && contents.portraits.empty())
@@ -62,11 +53,7 @@ PlotRequest plot_request(const Model& model, const SimulateArguments& arguments,
     if (!request.data_path.empty())
         require_writable(request.data_path);
     choose_panels(model, arguments, request.contents);
-    request.contents.marked = marked;
-    if (arguments.events.empty())
-        for (std::size_t i = 0; i < model.events.size(); ++i)
-            request.contents.marked[i] =
-                model.events[i].kind == EventKind::barrier && is_met_by_motion(model, model.events[i]);
+    request.contents.marked = arguments.events.empty() ? usual_marks(model) : marked;
     request.contents.sections = arguments.sections.size();
     return request;
 }

@@ -190,9 +190,7 @@ public:
     SimulateCommand(const SimulateArguments& arguments, const Console& console)
         : arguments_(arguments), console_(console), model_(prepared_model(arguments)),
           request_(table_request(model_, arguments)), length_(asked_length(model_, arguments)) {
-        if (request_.every && length_.shown.expected && *length_.shown.expected / *request_.every > most_samples)
-            throw InputError({"--every", 0, 0}, fmt::format("there would be more than {} rows", most_samples),
-                             "choose a larger distance or a shorter time");
+        require_room_for_samples(request_, length_.shown.expected, "--every");
         check_outputs();
         const SimulationOptions options = simulation_options(model_, arguments, request_.kind);
         auto probes = probes_for(model_, arguments, request_, length_);
@@ -243,25 +241,13 @@ private:
         control->tell([&](std::optional<double> fraction, double time) { progress.update(fraction, time); });
         control->end_when([this] { return InterruptGuard::requested() || table_->is_full(); });
         trajectory_ = std::make_unique<Trajectory>(*simulation_, model_.parameter_values(), control);
-        const LegEnd& first = length_.transient.empty() ? length_.shown : length_.transient;
         const InterruptGuard guard;
-        trajectory_->start(model_.initial_state(), model_.initial_mode, 0, first.duration);
+        trajectory_->start(model_.initial_state(), model_.initial_mode, 0, length_.first().duration);
         if (!request_.directions.empty())
             trajectory_->carry_derivatives(request_.directions);
         JetSet jets(*simulation_, LaneKind::single);
-        if (!length_.transient.empty()) {
-            control->begin(length_.transient, 0, false);
-            graze::run(*trajectory_, jets);
-            const Ending ending = trajectory_->outcome().ending;
-            if (InterruptGuard::requested() || (ending != Ending::end_time && ending != Ending::stopped)) {
-                interrupted_ = InterruptGuard::exit_code();
-                return;
-            }
-            trajectory_->extend(trajectory_->time() + length_.shown.duration);
-        }
-        control->begin(length_.shown, trajectory_->time(), true);
-        table_->begin(*trajectory_, length_.shown.expected);
-        graze::run(*trajectory_, jets);
+        run_legs(*trajectory_, jets, *control, length_, &InterruptGuard::requested,
+                 [this] { table_->begin(*trajectory_, length_.shown.expected); });
         interrupted_ = InterruptGuard::exit_code();
     }
 

@@ -119,10 +119,6 @@ std::vector<std::string> split_list(const std::vector<std::string>& arguments) {
     return items;
 }
 
-double value_of(const Model& model, std::string_view text, const std::string& option) {
-    return value_of_text(model, text, {fmt::format("{} {}", option, text), 1, 1});
-}
-
 double positive_value_of(const Model& model, std::string_view text, const std::string& option) {
     const double value = value_of(model, text, option);
     if (!(value > 0))
@@ -212,10 +208,6 @@ std::vector<double> disturbance_of(const Model& model, const std::vector<std::st
         values[*state] = value_of_text(model, assignment.text, assignment.place);
     }
     return values;
-}
-
-RequestedQuantity requested_quantity(const Model& model, const std::string& text, const std::string& option) {
-    return named_value(model, text, {option + ' ' + text, 1, 1});
 }
 
 std::vector<RequestedQuantity> requested_quantities(const Model& model, const std::vector<std::string>& texts,

@@ -18,11 +18,7 @@ namespace graze {
 /// Splits lists such as "a, b" "c"; blanks around items are dropped, empty items too.
 std::vector<std::string> split_list(const std::vector<std::string>& arguments);
 
-/// Value of a number or of an expression in the model's parameters, at their current values.
-/// @param option for messages
-/// @throws InputError when it is no expression or not finite
-double value_of(const Model& model, std::string_view text, const std::string& option);
-/// The same, and positive. @throws InputError
+/// The value of a text as by value_of, if it is positive. @throws InputError
 double positive_value_of(const Model& model, std::string_view text, const std::string& option);
 
 /// Sets parameters by `--set NAME=EXPRESSION ...`, one after the other; `@FILE` sets all values in a file of
@@ -49,9 +45,7 @@ std::vector<double> disturbance_of(const Model& model, const std::vector<std::st
 /// An expression in states and parameters whose values the user asked for.
 using RequestedQuantity = NamedValue;
 
-/// Parses a quantity's name or an expression. @param option for messages
-/// @throws InputError with the place when it is no expression
-RequestedQuantity requested_quantity(const Model& model, const std::string& text, const std::string& option);
+/// Reads each text as requested_quantity does.
 std::vector<RequestedQuantity> requested_quantities(const Model& model, const std::vector<std::string>& texts,
                                                     const std::string& option);
 

@@ -1,7 +1,6 @@
 #include "program/watchdog.hpp"
 
-#include "graze/acquire/generator_client.hpp"
-#include "graze/acquire/serial_line.hpp"
+#include "graze/acquire/acquisition.hpp"
 
 #include <fmt/format.h>
 
@@ -24,24 +23,15 @@ void say(const std::string& text) {
     static_cast<void>(ignored);
 }
 
-void make_safe(const Experiment& experiment) {
-    std::string problem;
-    bool safe = false, off = false;
-    try {
-        std::shared_ptr<InstrumentLine> line = open_generator_line(experiment.serial);
-        GeneratorOptions options = experiment.generator;
-        options.interrupted = nullptr;
-        GeneratorClient client(std::move(line), options);
-        safe = client.make_safe(experiment.safe, problem);
-        off = !safe && client.is_switched_off();
-    } catch (const std::exception& error) {
-        problem = error.what();
-    }
-    say(safe ? fmt::format("graze: acquire was killed; the generator is off, or at its safe amplitude, {} V\n",
-                           experiment.safe)
-             : fmt::format("graze: acquire was killed, and the generator could not be brought to its safe amplitude "
-                           "({}): {}\n",
-                           problem, off ? "its output is switched off, as it tells itself" : "switch it off by hand"));
+void make_safe_and_say(const Experiment& experiment) {
+    const SafeOutput output = make_safe(experiment);
+    say(output.safe
+            ? fmt::format("graze: acquire was killed; the generator is off, or at its safe amplitude, {} V\n",
+                          experiment.safe)
+            : fmt::format("graze: acquire was killed, and the generator could not be brought to its safe amplitude "
+                          "({}): {}\n",
+                          output.problem,
+                          output.off ? "its output is switched off, as it tells itself" : "switch it off by hand"));
 }
 
 /// Reads words from the pipe until its other end is closed, by disarming or because the process there has ended.
@@ -61,7 +51,7 @@ void make_safe(const Experiment& experiment) {
             break;
     }
     if (armed) {
-        make_safe(experiment);
+        make_safe_and_say(experiment);
         try {
             folder.finish();
         } catch (const std::exception& error) {

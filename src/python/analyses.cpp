@@ -9,6 +9,7 @@
 #include "graze/study/stored_ladder.hpp"
 #include "python/analysis_progress.hpp"
 #include "python/figures.hpp"
+#include "python/parts.hpp"
 #include "python/tables.hpp"
 
 #include <fmt/format.h>
@@ -123,7 +124,9 @@ public:
     }
 
     void make_devices(const std::vector<std::string>& vary, const std::string& within, std::size_t devices,
-                      std::uint64_t seed, int threads, const py::object& told) {
+                      std::uint64_t seed, int threads, const py::object& told,
+                      const std::shared_ptr<PartExchange>& parts) {
+        yield_.reset();
         settings_ = {};
         for (const std::string& item : vary)
             settings_.tolerances.push_back(
@@ -138,6 +141,7 @@ public:
         attended(
             [&](const std::function<bool()>& must_stop) {
                 YieldSettings settings = settings_;
+                settings.elsewhere = devices_by(parts);
                 settings.interrupted = must_stop;
                 settings.progress = [&](std::size_t made) { progress.note(made); };
                 yield_ = with_place({"vary", 0, 0}, [&] {
@@ -174,14 +178,21 @@ public:
 
     const LocatedPoint& found() const { return *found_; }
     const std::optional<Yield>& yield() const { return yield_; }
+    /// @throws OrderError where there are none
+    const Yield& made_devices() const {
+        if (!yield_)
+            throw OrderError("no devices have been made", "call make_devices first");
+        return *yield_;
+    }
     const YieldSettings& settings() const { return settings_; }
     py::object figure() const {
-        return object_of(yield_picture(*yield_, found_->name, found_->unit, settings_.least, settings_.greatest));
+        return object_of(
+            yield_picture(made_devices(), found_->name, found_->unit, settings_.least, settings_.greatest));
     }
     py::dict devices() const {
         std::vector<double> values, linear;
         std::vector<std::string> outcomes;
-        for (const Device& device : yield_->devices) {
+        for (const Device& device : made_devices().devices) {
             if (device.outcome == DeviceOutcome::not_made)
                 continue;
             const bool is_found = device.outcome == DeviceOutcome::found;
@@ -224,14 +235,15 @@ void bind_tolerance(py::module_& module) {
         .def_property_readonly("interrupted",
                                [](const Held& self) { return self.yield() && self.yield()->interrupted; })
         .def("make_devices", &Held::make_devices, py::arg("vary"), py::kw_only(), py::arg("within"), py::arg("devices"),
-             py::arg("seed"), py::arg("threads"), py::arg("told"))
+             py::arg("seed"), py::arg("threads"), py::arg("told"), py::arg("parts") = std::shared_ptr<PartExchange>())
         .def("solve", &Held::solve)
         .def("derivatives",
              [](const Held& self) {
                  return columns_of(
                      derivative_table(self.found(), &self.settings(), self.yield() ? &*self.yield() : nullptr));
              })
-        .def("statistics", [](const Held& self) { return columns_of(yield_table(*self.yield(), self.found().name)); })
+        .def("statistics",
+             [](const Held& self) { return columns_of(yield_table(self.made_devices(), self.found().name)); })
         .def("devices", &Held::devices)
         .def("figure", &Held::figure);
 }
@@ -263,6 +275,8 @@ public:
     }
     bool has_grazings() const { return found_.has_value(); }
     py::dict object() const {
+        if (!found_)
+            throw OrderError("no grazings have been found", "call climb first");
         const ChatterLimit& limit = found_->limit;
         py::dict object;
         object["table"] = columns_of(ladder_table(*found_));

@@ -2,7 +2,7 @@
 
 #include "graze/base/with_place.hpp"
 #include "python/attended.hpp"
-#include "python/binding.hpp"
+#include "python/noted.hpp"
 
 #include <atomic>
 #include <cstddef>
@@ -24,9 +24,7 @@ public:
     /// For `attended`: calls a function of Python with a dictionary as runs do; empty for None. This object has to live
     /// as long.
     std::function<void()> telling(const py::object& told) const {
-        if (told.is_none())
-            return {};
-        return [this, told] {
+        return python::telling(told, [this] {
             py::dict object;
             object["run"] = of_;
             for (const char* name : {"done", "all_done"})
@@ -34,8 +32,8 @@ public:
             for (const char* name : {"points", "all_points"})
                 object[name] = wanted_.load();
             object["parameter"] = py::none();
-            told(object);
-        };
+            return object;
+        });
     }
 
 private:

@@ -73,8 +73,21 @@ private:
     std::jthread thread_; ///< the last member, since it uses the others
 };
 
+bool interpreter_is_ending() {
+#if PY_VERSION_HEX >= 0x030d0000
+    return Py_IsFinalizing() != 0;
+#else
+    return _Py_IsFinalizing() != 0;
+#endif
+}
+
+/// Whether this thread ends the process: it keeps the interpreter's lock to the last.
+bool ends_process() {
+    return all_work().ending && std::this_thread::get_id() == all_work().ended_by;
+}
+
 void lock_again(PyThreadState* state) {
-    while (_Py_IsFinalizing() || process_is_ending())
+    while ((interpreter_is_ending() && !ends_process()) || process_is_ending())
         std::this_thread::sleep_for(std::chrono::hours(1));
     PyEval_RestoreThread(state);
 }

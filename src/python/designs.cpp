@@ -1,15 +1,15 @@
 #include "graze/base/input_error.hpp"
-#include "graze/base/with_place.hpp"
 #include "graze/design/design_folder.hpp"
+#include "graze/design/finished_design.hpp"
 #include "graze/layout/verilog_a.hpp"
 #include "graze/model/model_file.hpp"
 #include "graze/picture/design_page.hpp"
 #include "graze/results/table_text.hpp"
+#include "python/attended.hpp"
 #include "python/design_work.hpp"
 #include "python/figures.hpp"
 #include "python/tables.hpp"
 
-#include <cmath>
 #include <filesystem>
 #include <optional>
 
@@ -23,87 +23,37 @@ std::string path_in(const std::string& folder, const char* name) {
     return (std::filesystem::path(folder) / name).string();
 }
 
-/// A finished design: the device, and all that is known about it.
+/// A finished design with its tables.
 class ComputedDesign {
 public:
     /// @param folder receives the result files of the ways to the trip points
     ComputedDesign(const Design& design, const std::string& folder, const DesignReportOptions& options)
-        : first_(design), design_(design) {
-        trip_ = locate_trip(first_, path_in(folder, "results.sqlite"), options);
-        std::optional<MetWishes> wishes;
-        if (trip_ && !first_.wanted.is_empty()) {
-            wishes = with_place(first_.approach.place, [&] { return device_found(options); });
-            if (wishes->found.outcome != WishOutcome::nowhere && wishes->found.outcome != WishOutcome::interrupted) {
-                // Follow the finished device from the start too: it may trip earlier, at another point.
-                design_ = with_values(first_, wishes->values());
-                trip_ = locate_trip(design_, path_in(folder, "designed.sqlite"), options);
-            }
-        }
-        if (!trip_ || options.interrupted())
-            return; // `attended` throws what has interrupted
-        report_ = with_place(design_.approach.place, [&] { return report_of(design_, *trip_, options); });
-        report_.wishes = std::move(wishes);
-        tables_ = tables_of(design_, *trip_, report_);
+        : finished_(finish_design(
+              design, {path_in(folder, "results.sqlite"), [&] { return path_in(folder, "designed.sqlite"); }},
+              options)) {
+        if (!finished_.interrupted) // otherwise `attended` throws what has interrupted
+            tables_ = tables_of(finished_.device, *finished_.trip, finished_.report);
     }
 
-    const Design& design() const { return design_; }
-    const DesignReport& report() const { return report_; }
+    const Design& design() const { return finished_.device; }
+    const DesignReport& report() const { return finished_.report; }
     const std::vector<NamedTable>& tables() const { return tables_; }
-    const TripPoint& trip() const { return *trip_; }
+    const TripPoint& trip() const { return *finished_.trip; }
 
-    std::string json() const { return report_json(design_, tables_, GRAZE_VERSION); }
-    std::string device_text() const { return device_heading(first_) + write_model(model_of_device(*trip_)); }
+    std::string json() const { return report_json(design(), tables_, GRAZE_VERSION); }
+    std::string device_text() const { return device_heading(finished_.written) + write_model(model_of_device(trip())); }
 
-    /// What the user should look at, in words; empty: the design is regular.
-    std::vector<std::string> warnings() const {
-        std::vector<std::string> all;
-        const auto& wanted = design_.wanted.outcome;
-        if (wanted && report_.found.outcome != *wanted)
-            all.push_back("the class is " + std::string(class_name(report_.found.outcome)) + ", and " +
-                          std::string(class_name(*wanted)) + " is wanted");
-        if (report_.trial.outcome == TrialOutcome::contradicted)
-            all.push_back("simulation contradicts the class: below " + report_.trial.seen_below + ", above " +
-                          report_.trial.seen_above);
-        if (report_.trial.outcome == TrialOutcome::undecided && report_.found.outcome != GrazingOutcome::undecided)
-            all.push_back("the class is not checked by simulation: " + report_.trial.reason);
-        if (report_.yield && report_.yield->failed > 0)
-            all.push_back(std::to_string(report_.yield->failed) + " of " + std::to_string(report_.yield->made) +
-                          " devices trip at no value that was found");
-        if (report_.wishes && report_.wishes->found.outcome != WishOutcome::met)
-            all.push_back("what is wanted: " + std::string(name_of(report_.wishes->found.outcome)) + "; " +
-                          report_.wishes->found.reason);
-        if (trips_elsewhere())
-            all.emplace_back("on its way to the trip point for which it was made, the device comes first to another "
-                             "one: change approach.range, approach.from or what is wanted");
-        return all;
-    }
+    std::vector<std::string> warnings() const { return finished_.warnings(); }
 
 private:
-    MetWishes device_found(const DesignReportOptions& options) const {
-        WishesOptions wishes;
-        wishes.jobs = options.jobs;
-        wishes.interrupted = options.interrupted;
-        wishes.progress = [&](std::size_t devices) {
-            options.progress(std::to_string(devices) + " devices tried for what is wanted");
-        };
-        return meet_wishes(first_, *trip_, wishes);
-    }
-    bool trips_elsewhere() const {
-        constexpr double alike = 1e-6; // far above the difference between two solutions of the same problem
-        return report_.wishes && report_.wishes->trip_value &&
-               !(std::abs(*report_.wishes->trip_value - trip_->value()) <= alike * std::abs(trip_->value()));
-    }
-
-    Design first_, design_;
-    std::optional<TripPoint> trip_;
-    DesignReport report_;
+    FinishedDesign finished_;
     std::vector<NamedTable> tables_;
 };
 
 std::shared_ptr<ComputedDesign> computed(const Design& design, const std::string& folder, int threads,
-                                         const py::object& told) {
+                                         const py::object& told, const std::shared_ptr<PartExchange>& parts) {
     std::shared_ptr<ComputedDesign> result;
-    attend_design(threads, told, [&](const DesignReportOptions& options) {
+    attend_design(threads, told, parts, [&](const DesignReportOptions& options) {
         result = std::make_shared<ComputedDesign>(design, folder, options);
     });
     return result;
@@ -154,7 +104,7 @@ void bind_designs(py::module_& module) {
             [](const std::string& text, const std::string& file) {
                 return std::make_shared<Design>(parse_design(text, file));
             },
-            py::arg("text"), py::arg("file"), py::call_guard<py::gil_scoped_release>())
+            py::arg("text"), py::arg("file"), py::call_guard<Unlocked>())
         .def_readonly("name", &Design::name)
         .def_readonly("text", &Design::text)
         .def_readonly("source", &Design::source)
@@ -165,7 +115,8 @@ void bind_designs(py::module_& module) {
                                })
         .def_property_readonly("model", [](const Design& self) { return std::make_shared<HeldModel>(self.model); })
         .def_property_readonly("dimensions", &dimensions_of)
-        .def("compute", &computed, py::arg("folder"), py::kw_only(), py::arg("threads"), py::arg("told"));
+        .def("compute", &computed, py::arg("folder"), py::kw_only(), py::arg("threads"), py::arg("told"),
+             py::arg("parts") = std::shared_ptr<PartExchange>());
     py::class_<ComputedDesign, std::shared_ptr<ComputedDesign>>(module, "ComputedDesign")
         .def_property_readonly("name", [](const ComputedDesign& self) { return self.design().name; })
         .def_property_readonly("control", [](const ComputedDesign& self) { return self.design().control; })

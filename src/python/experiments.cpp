@@ -5,12 +5,13 @@
 #include "instrument/bench_lines.hpp"
 #include "instrument/bench_service.hpp"
 #include "python/attended.hpp"
+#include "python/noted.hpp"
 #include "python/tables.hpp"
+#include "python/words.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <thread>
 #include <unistd.h>
@@ -22,23 +23,6 @@ namespace {
 
 using MustStop = std::function<bool()>;
 using ChannelValues = std::vector<std::pair<std::string, std::variant<double, std::string>>>;
-
-/// Channels without others: the quantity `voltage`, and all states that are not cyclic.
-std::vector<std::string> usual_channels(const Model& model) {
-    std::vector<std::string> texts;
-    if (const auto voltage = model.find_quantity("voltage"))
-        texts.push_back("V=voltage:" + model.quantities[*voltage].unit);
-    for (const State& state : model.states)
-        if (!state.period)
-            texts.push_back(state.unit.empty() ? state.name : state.name + "=" + state.name + ":" + state.unit);
-    return texts;
-}
-
-template <class Value>
-void read_word(const py::dict& words, const char* name, Value& value) {
-    if (words.contains(name))
-        value = words[name].cast<Value>();
-}
 
 void set_each(BenchSettings& settings, const py::dict& words, const char* name, double BenchChannel::*property) {
     ChannelValues values;
@@ -166,10 +150,13 @@ public:
     HeldService(const HeldService&) = delete;
     HeldService& operator=(const HeldService&) = delete;
     ~HeldService() {
-        if (getpid() == owner_)
-            state_->stop = true;
-        else
+        if (getpid() != owner_) {
             static_cast<void>(state_.release()); // a forked process has neither the thread nor the connections
+            return;
+        }
+        const Unlocked unlocked;
+        state_->stop = true;
+        state_.reset();
     }
     std::uint16_t tcp_port() const { return state_->service.tcp_port(); }
 
@@ -178,8 +165,9 @@ private:
         State(std::shared_ptr<HeldBench> of_bench, const ServiceSettings& settings)
             : bench(std::move(of_bench)), use(*bench), service(*use, settings), thread([this] { serve(); }) {}
         void serve() {
+            const RunningWork running;
             try {
-                service.run([this] { return stop.load(); });
+                service.run([this] { return stop.load() || process_is_ending(); });
             } catch (const std::exception&) { // clients see that the connection is closed
             }
         }
@@ -216,20 +204,6 @@ py::list levels_of(const Experiment& experiment) {
     return list;
 }
 
-const char* name_of(AcquisitionStage stage) {
-    switch (stage) {
-    case AcquisitionStage::walking:
-        return "walking";
-    case AcquisitionStage::setting:
-        return "setting";
-    case AcquisitionStage::settling:
-        return "settling";
-    case AcquisitionStage::recording:
-        break;
-    }
-    return "recording";
-}
-
 /// An acquisition, whose report remains when it was interrupted.
 class HeldAcquisition {
 public:
@@ -243,11 +217,11 @@ public:
         if (bench)
             use.emplace(*bench);
         attended([&](const MustStop& must_stop) { run_unlocked(use ? &**use : nullptr, watch, must_stop); },
-                 told.is_none() ? std::function<void()>() : [&] { told(progress()); });
+                 telling(told, [this] { return progress(); }));
     }
     py::dict report() const {
         py::dict object;
-        object["ending"] = std::string(graze::name_of(report_.ending));
+        object["ending"] = std::string(name_of(report_.ending));
         object["detail"] = report_.detail;
         object["remedy"] = report_.ending == AcquisitionEnding::complete ? "" : remedy_of(report_.ending);
         object["before"] = report_.before;
@@ -272,10 +246,7 @@ private:
         RecordFolder folder(folder_, experiment_);
         AcquisitionOptions options;
         options.interrupted = must_stop;
-        options.progress = [this](const AcquisitionProgress& progress) {
-            const std::lock_guard lock(mutex_);
-            progress_ = progress;
-        };
+        options.progress = [this](const AcquisitionProgress& progress) { progress_.note(progress); };
         options.begun = [watch] {
             if (watch >= 0 && write(watch, "a", 1) != 1)
                 throw InstrumentError(AcquisitionEnding::interrupted, "the process that watches this one has ended");
@@ -300,16 +271,16 @@ private:
             entries_.push_back(entry);
     }
     py::dict progress() const {
-        const std::lock_guard lock(mutex_);
+        const AcquisitionProgress now = progress_.now();
         py::dict object;
-        object["stage"] = name_of(progress_.stage);
-        object["number"] = progress_.level.number;
-        object["levels"] = progress_.levels;
-        object["recorded"] = progress_.recorded;
-        object["frequency"] = progress_.level.frequency;
-        object["amplitude"] = progress_.level.amplitude;
-        object["direction"] = progress_.level.direction;
-        object["time"] = progress_.time;
+        object["stage"] = std::string(name_of(now.stage));
+        object["number"] = now.level.number;
+        object["levels"] = now.levels;
+        object["recorded"] = now.recorded;
+        object["frequency"] = now.level.frequency;
+        object["amplitude"] = now.level.amplitude;
+        object["direction"] = now.level.direction;
+        object["time"] = now.time;
         return object;
     }
 
@@ -317,26 +288,17 @@ private:
     std::string folder_;
     AcquisitionReport report_;
     std::vector<RecordEntry> entries_;
-    mutable std::mutex mutex_;
-    AcquisitionProgress progress_;
+    Noted<AcquisitionProgress> progress_;
 };
 
 /// Brings the generator of an experiment to its safe amplitude. @return why that failed; empty: it is safe
 std::string made_safe(const Experiment& experiment) {
-    std::string problem;
-    try {
-        std::shared_ptr<InstrumentLine> line = open_generator_line(experiment.serial);
-        GeneratorOptions options = experiment.generator;
-        options.interrupted = nullptr;
-        GeneratorClient client(std::move(line), options);
-        if (client.make_safe(experiment.safe, problem))
-            return "";
-        if (client.is_switched_off())
-            problem += "; its output is switched off, as it tells itself";
-    } catch (const Error& error) {
-        problem = error.what();
-    }
-    return problem.empty() ? "it does not answer" : problem;
+    SafeOutput output = make_safe(experiment);
+    if (output.safe)
+        return "";
+    if (output.off)
+        output.problem += "; its output is switched off, as it tells itself";
+    return output.problem.empty() ? "it does not answer" : output.problem;
 }
 
 } // namespace
@@ -403,7 +365,7 @@ void bind_experiments(py::module_& module) {
                 self.device = device;
             })
         .def_property_readonly("levels", &levels_of)
-        .def("make_safe", &made_safe, py::call_guard<py::gil_scoped_release>());
+        .def("make_safe", &made_safe, py::call_guard<Unlocked>());
     py::class_<HeldAcquisition>(module, "Acquisition")
         .def(py::init<const Experiment&, const std::string&>(), py::arg("experiment"), py::arg("folder"))
         .def("run", &HeldAcquisition::run, py::arg("bench"), py::arg("watch"), py::arg("told"))

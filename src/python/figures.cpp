@@ -1,4 +1,5 @@
 #include "python/figures.hpp"
+#include "python/attended.hpp"
 
 #include "base/special_numbers.hpp"
 #include "graze/base/input_error.hpp"
@@ -227,7 +228,7 @@ PanelAxis axis_between(const std::tuple<double, double, bool>& limits) {
 /// What a function gives, made without the interpreter's lock.
 template <class Make>
 auto made(const Make& make) {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     return make();
 }
 

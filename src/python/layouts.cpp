@@ -18,7 +18,6 @@
 #include "python/design_work.hpp"
 #include "python/tables.hpp"
 
-#include <atomic>
 #include <filesystem>
 #include <optional>
 #include <variant>
@@ -201,9 +200,10 @@ struct MadeWafers {
 };
 
 std::shared_ptr<MadeWafers> made_wafers(const HeldLayout& self, const std::string& folder, std::size_t count,
-                                        std::uint64_t seed, bool despite_rules, int threads, const py::object& told) {
+                                        std::uint64_t seed, bool despite_rules, int threads, const py::object& told,
+                                        const std::shared_ptr<PartExchange>& parts) {
     auto made = std::make_shared<MadeWafers>();
-    attend_design(threads, told, [&](const DesignReportOptions& options) {
+    attend_design(threads, told, parts, [&](const DesignReportOptions& options) {
         const Layout wafer = self.wafer();
         if (!despite_rules)
             require_rules(self.file(), rule_findings(self.file(), wafer));
@@ -217,6 +217,7 @@ std::shared_ptr<MadeWafers> made_wafers(const HeldLayout& self, const std::strin
         settings.wafers = count;
         settings.seed = seed;
         settings.jobs = options.jobs;
+        settings.elsewhere = options.elsewhere;
         settings.interrupted = options.interrupted;
         settings.progress = [&](std::size_t devices) { options.progress("device " + std::to_string(devices)); };
         made->found = with_place(design.approach.place,
@@ -255,13 +256,14 @@ std::string json_of(const HeldLayout& layout, const MadeWafers& made, std::size_
 }
 
 /// What the drawn device does, beside the designed one.
-py::dict drawn_of(const HeldLayout& self, const std::string& folder, int threads, const py::object& told) {
+py::dict drawn_of(const HeldLayout& self, const std::string& folder, int threads, const py::object& told,
+                  const std::shared_ptr<PartExchange>& parts) {
     if (!self.designed())
         throw InputError(
             "the drawing is not that of a designed device",
             "draw it by layout(..., from_design=FOUND), or by the method layout() of what design() returns");
     std::optional<DrawnDesign> drawn;
-    attend_design(threads, told, [&](const DesignReportOptions& options) {
+    attend_design(threads, told, parts, [&](const DesignReportOptions& options) {
         drawn = drawn_design(*self.designed(), (std::filesystem::path(folder) / "drawn.sqlite").string(), options);
     });
     py::dict object;
@@ -317,10 +319,12 @@ void bind_layouts(py::module_& module) {
         .def("verilog_a",
              [](const HeldLayout& self) { return verilog_a_text(self.model(), self.file().name, generator); })
         .def("wafers", &made_wafers, py::arg("folder"), py::arg("count"), py::kw_only(), py::arg("seed"),
-             py::arg("despite_rules"), py::arg("threads"), py::arg("told"))
+             py::arg("despite_rules"), py::arg("threads"), py::arg("told"),
+             py::arg("parts") = std::shared_ptr<PartExchange>())
         .def("wafer_json", &json_of, py::arg("made"), py::arg("count"), py::arg("seed"))
         .def_property_readonly("wafer_radius", [](const HeldLayout& self) { return self.file().wafer.diameter / 2; })
-        .def("drawn", &drawn_of, py::arg("folder"), py::kw_only(), py::arg("threads"), py::arg("told"));
+        .def("drawn", &drawn_of, py::arg("folder"), py::kw_only(), py::arg("threads"), py::arg("told"),
+             py::arg("parts") = std::shared_ptr<PartExchange>());
     py::class_<MadeWafers, std::shared_ptr<MadeWafers>>(module, "MadeWafers")
         .def("facts", [](const MadeWafers& self) { return columns_of(self.facts); })
         .def("devices", [](const MadeWafers& self) { return columns_of(self.devices); })

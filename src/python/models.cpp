@@ -90,10 +90,10 @@ void bind_models(py::module_& module) {
     py::class_<HeldModel, std::shared_ptr<HeldModel>>(module, "Model")
         .def_static(
             "parsed", [](const std::string& text, const std::string& file) { return held(parse_model(text, file)); },
-            py::arg("text"), py::arg("file"), py::call_guard<py::gil_scoped_release>())
+            py::arg("text"), py::arg("file"), py::call_guard<Unlocked>())
         .def_static(
             "loaded", [](const std::string& name_or_path) { return held(load_model(name_or_path)); },
-            py::arg("name_or_path"), py::call_guard<py::gil_scoped_release>())
+            py::arg("name_or_path"), py::call_guard<Unlocked>())
         .def("copied", [](const HeldModel& self) { return held(self.model); })
         .def("text", [](const HeldModel& self) { return write_model(self.model); })
         .def_property_readonly("name", [](const HeldModel& self) { return self.model.name; })

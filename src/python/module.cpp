@@ -5,6 +5,7 @@ PYBIND11_MODULE(_graze, module) {
     module.doc() = "The compiled part of the package graze.";
     module.attr("version") = GRAZE_VERSION;
     bind_errors(module);
+    bind_parts(module); // before what is given some
     bind_analyses(module);
     bind_designs(module);
     bind_experiments(module);
@@ -13,7 +14,6 @@ PYBIND11_MODULE(_graze, module) {
     bind_layouts(module);
     bind_models(module);
     bind_motions(module);
-    bind_parts(module); // before studies, which are given some
     bind_records(module);
     bind_results(module);
     bind_studies(module);

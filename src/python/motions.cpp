@@ -1,3 +1,4 @@
+#include "flow/cyclic.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/picture/motion_recorder.hpp"
 #include "graze/picture/trajectory_figure.hpp"
@@ -9,6 +10,7 @@
 #include "python/attended.hpp"
 #include "python/figures.hpp"
 #include "python/tables.hpp"
+#include "python/words.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -88,11 +90,6 @@ private:
     std::exception_ptr raised_;
 };
 
-/// Cyclic states within their periods; others as they are.
-double reduced(double value, double period) {
-    return period > 0 ? value - period * std::floor(value / period) : value;
-}
-
 using NamedNumbers = std::vector<std::pair<std::string, double>>;
 
 /// What is asked of one motion.
@@ -153,7 +150,7 @@ public:
 private:
     void add(std::size_t mode) {
         for (std::size_t i = 0; i < state_.size(); ++i)
-            state_[i] = reduced(state_[i], periods_[i]);
+            state_[i] = within_period(state_[i], periods_[i]);
         table_.add(begin_ + times_[taken_], model_->modes[mode].name);
         columns_.add(table_, state_);
     }
@@ -196,7 +193,7 @@ public:
             const bool outside = after == steps.end() || !(time >= after->start);
             for (std::size_t i = 0; i < periods_.size(); ++i)
                 states.push_back(outside ? std::numeric_limits<double>::quiet_NaN()
-                                         : reduced(after->state(i, time - after->start), periods_[i]));
+                                         : within_period(after->state(i, time - after->start), periods_[i]));
         }
         return array_of(std::move(states),
                         {static_cast<py::ssize_t>(times.size()), static_cast<py::ssize_t>(periods_.size())});
@@ -211,7 +208,8 @@ private:
 class Motion {
 public:
     bool is_full() const {
-        return std::ranges::any_of(tables, [](const auto& table) { return table->is_full(); }) ||
+        return std::ranges::any_of(tables,
+                                   [](const auto& table) { return table->is_full() || !table->is_complete(); }) ||
                (steps && steps->is_full());
     }
     /// None if it was not asked for.
@@ -319,7 +317,7 @@ public:
             figure = trajectory_figure(*curves);
         });
         watch.rethrow();
-        return object_of(figure);
+        return object_of(std::move(figure));
     }
 
     /// The value of an expression in parameters, given some others.
@@ -414,12 +412,7 @@ private:
         choice.chosen = !histories.empty();
         choice.sections = first_extremum_;
         const auto column = [&](const std::string& text, const char* argument) {
-            NamedValue value = asked_value(model_, text, argument);
-            const auto known = std::ranges::find(choice.columns, value.name, &NamedValue::name);
-            if (known != choice.columns.end())
-                return static_cast<std::size_t>(known - choice.columns.begin());
-            choice.columns.push_back(std::move(value));
-            return choice.columns.size() - 1;
+            return choice.column(asked_value(model_, text, argument));
         };
         const std::vector<std::string> plain = plain_states(model_);
         for (const std::string& text : histories.empty() ? plain : histories)
@@ -433,11 +426,7 @@ private:
         }
         if (choice.histories.empty() && choice.portraits.empty())
             throw InputError("there is nothing to draw: all states are cyclic or drifting", "name quantities");
-        for (std::size_t i = 0; i < model_.events.size(); ++i) {
-            const Event& event = model_.events[i];
-            choice.marked.push_back(asked.events ? plan.events[i]
-                                                 : event.kind == EventKind::barrier && is_met_by_motion(model_, event));
-        }
+        choice.marked = asked.events ? plan.events : usual_marks(model_);
         return choice;
     }
 
@@ -452,29 +441,17 @@ private:
         control->tell([&watch](std::optional<double> fraction, double time) { watch.note(fraction, time); });
         control->end_when([&watch, motion] { return watch.asks_to_stop() || (motion && motion->is_full()); });
         Trajectory trajectory(simulation, plan.parameters, control);
-        const LegEnd& first = length.transient.empty() ? length.shown : length.transient;
-        trajectory.start(plan.state, plan.mode, 0, first.duration);
+        trajectory.start(plan.state, plan.mode, 0, length.first().duration);
         if (!asked.derivatives.empty())
             trajectory.carry_derivatives(asked.derivatives);
         auto jets = plan.pool->take(!asked.derivatives.empty());
-        const auto show = [&] {
-            control->begin(length.shown, trajectory.time(), true);
+        const auto begin = [&] {
             if (motion)
                 for (const auto& table : motion->tables)
                     table->begin(trajectory, length.shown.expected);
-            graze::run(trajectory, *jets);
         };
-        if (length.transient.empty()) {
-            show();
-        } else {
-            control->begin(length.transient, 0, false);
-            graze::run(trajectory, *jets);
-            const Ending ending = trajectory.outcome().ending;
-            if (!watch.has_raised() && (ending == Ending::end_time || ending == Ending::stopped)) {
-                trajectory.extend(trajectory.time() + length.shown.duration);
-                show();
-            }
-        }
+        run_legs(
+            trajectory, *jets, *control, length, [&watch] { return watch.has_raised(); }, begin);
         plan.pool->give_back(std::move(jets));
         return trajectory;
     }
@@ -495,6 +472,8 @@ private:
             observers.push_back(table);
             motion.tables.push_back(std::move(table));
         };
+        if (asked.samples > 0 && !asked.at)
+            require_room_for_samples(request, plan.length.shown.expected, "every");
         const auto add = [&](TableKind kind, bool wanted) {
             if (!wanted)
                 return;
@@ -540,17 +519,7 @@ private:
 MotionRequest request_from(const py::dict& words) {
     MotionRequest asked;
     std::size_t known = 0;
-    const auto read = [&](const char* name, auto& value) {
-        PyObject* const item = PyDict_GetItemString(words.ptr(), name);
-        if (!item)
-            return;
-        ++known;
-        try {
-            value = py::reinterpret_borrow<py::object>(item).cast<std::remove_reference_t<decltype(value)>>();
-        } catch (const py::cast_error&) {
-            throw py::type_error(std::string(name) + " is " + py::repr(item).cast<std::string>());
-        }
-    };
+    const auto read = [&](const char* name, auto& value) { known += read_word(words, name, value) ? 1 : 0; };
     read("time", asked.length.time);
     read("after", asked.length.after);
     read("periods", asked.length.periods);

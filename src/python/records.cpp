@@ -7,12 +7,13 @@
 #include "graze/study/identify_records.hpp"
 #include "python/attended.hpp"
 #include "python/figures.hpp"
+#include "python/noted.hpp"
 #include "python/tables.hpp"
+#include "python/words.hpp"
 
 #include <algorithm>
 #include <functional>
 #include <limits>
-#include <mutex>
 
 namespace graze::python {
 
@@ -40,28 +41,6 @@ private:
     MustStop must_stop_;
 };
 
-/// Samples in memory, which several sources read at once.
-class SharedSamples : public SampleSource {
-public:
-    SharedSamples(std::shared_ptr<const RecordHeader> header, std::shared_ptr<const Samples> samples)
-        : header_(std::move(header)), samples_(std::move(samples)) {}
-    const RecordHeader& header() const override { return *header_; }
-    bool read(Samples& samples) override {
-        constexpr std::size_t part = 65536;
-        samples.clear(header_->channels.size());
-        const std::size_t last = std::min(next_ + part, samples_->rows());
-        if (last > next_)
-            samples.append(*samples_, next_, last);
-        next_ = last;
-        return samples.rows() > 0;
-    }
-
-private:
-    std::shared_ptr<const RecordHeader> header_;
-    std::shared_ptr<const Samples> samples_;
-    std::size_t next_ = 0;
-};
-
 /// A source that keeps its processing alive.
 std::shared_ptr<SampleSource> source_of(std::shared_ptr<SampleSource> source, const RecordProcessing& processing) {
     const auto record = std::make_shared<ProcessedRecord>(std::move(source), processing);
@@ -69,22 +48,7 @@ std::shared_ptr<SampleSource> source_of(std::shared_ptr<SampleSource> source, co
 }
 
 /// Remarks on what was left out of a file, each once.
-class Remarks {
-public:
-    void add(const std::string& text) {
-        const std::lock_guard lock(mutex_);
-        if (std::ranges::find(texts_, text) == texts_.end())
-            texts_.push_back(text);
-    }
-    std::vector<std::string> texts() const {
-        const std::lock_guard lock(mutex_);
-        return texts_;
-    }
-
-private:
-    mutable std::mutex mutex_;
-    std::vector<std::string> texts_;
-};
+using Remarks = Noted<std::vector<std::string>>;
 
 /// A record that can be read as often as wanted, from a file or from memory, with its processing.
 class HeldRecord {
@@ -97,7 +61,7 @@ public:
 
     const std::string& name() const { return name_; }
     const RecordHeader& header() const { return header_; }
-    std::vector<std::string> remarks() const { return remarks_->texts(); }
+    std::vector<std::string> remarks() const { return remarks_->now(); }
     std::shared_ptr<SampleSource> opened() const { return with_place({name_, 0, 0}, open_); }
     std::shared_ptr<SampleSource> opened(const MustStop& must_stop) const {
         return std::make_shared<StoppableSource>(opened(), must_stop);
@@ -124,12 +88,6 @@ void attend_record(const HeldRecord& record, const std::function<void(SampleSour
     });
 }
 
-template <class Value>
-void read_word(const py::dict& words, const char* name, Value& value) {
-    if (words.contains(name))
-        value = words[name].cast<Value>();
-}
-
 std::shared_ptr<HeldRecord> record_of_file(const std::string& path, const py::dict& words) {
     RecordLayout layout;
     read_word(words, "columns", layout.columns);
@@ -138,7 +96,12 @@ std::shared_ptr<HeldRecord> record_of_file(const std::string& path, const py::di
     read_word(words, "names_line", layout.names_line);
     read_word(words, "units_line", layout.units_line);
     const auto remarks = std::make_shared<Remarks>();
-    layout.remark = [remarks](const std::string& text) { remarks->add(text); };
+    layout.remark = [remarks](const std::string& text) {
+        remarks->change([&](std::vector<std::string>& texts) {
+            if (std::ranges::find(texts, text) == texts.end())
+                texts.push_back(text);
+        });
+    };
     const auto open = [path, layout] { return std::shared_ptr<SampleSource>(open_record(path, layout)); };
     return std::make_shared<HeldRecord>(path, open, remarks);
 }
@@ -153,25 +116,18 @@ std::vector<double> numbers_of(const Numbers& array, const std::string& name) {
 
 std::shared_ptr<HeldRecord> record_of_arrays(const std::string& name, const Channel& time, const Numbers& times,
                                              const std::vector<Channel>& channels, const std::vector<Numbers>& values) {
-    auto header = std::make_shared<RecordHeader>();
-    header->time = time;
-    header->channels = channels;
-    auto samples = std::make_shared<Samples>();
-    samples->times = numbers_of(times, "time");
+    Samples samples;
+    samples.times = numbers_of(times, "time");
     for (std::size_t i = 0; i < channels.size(); ++i) {
-        samples->values.push_back(numbers_of(values[i], channels[i].name));
-        if (samples->values.back().size() != samples->times.size())
-            throw InputError(channels[i].name + " has " + std::to_string(samples->values.back().size()) +
-                                 " samples, and there are " + std::to_string(samples->times.size()) + " times",
+        samples.values.push_back(numbers_of(values[i], channels[i].name));
+        if (samples.values.back().size() != samples.times.size())
+            throw InputError(channels[i].name + " has " + std::to_string(samples.values.back().size()) +
+                                 " samples, and there are " + std::to_string(samples.times.size()) + " times",
                              "give one for each time");
     }
-    const StoredSamples checked(*header, *samples);
+    const auto record = std::make_shared<const StoredSamples>(RecordHeader{time, channels}, std::move(samples));
     return std::make_shared<HeldRecord>(
-        name,
-        [header = std::shared_ptr<const RecordHeader>(header), samples = std::shared_ptr<const Samples>(samples)] {
-            return std::make_shared<SharedSamples>(header, samples);
-        },
-        std::make_shared<Remarks>());
+        name, [record] { return std::shared_ptr<SampleSource>(record->again()); }, std::make_shared<Remarks>());
 }
 
 RecordProcessing processing_from(const py::dict& words) {
@@ -357,7 +313,7 @@ py::tuple identified(const HeldRecords& records, const std::string& what, const 
     const bool known = found.covariance.size() == found.values.size() * found.values.size();
     return py::make_tuple(
         values, known ? py::object(array_of(std::move(found.covariance), {count, count})) : py::object(py::none()),
-        found.warnings, object_of(figure));
+        found.warnings, object_of(std::move(figure)));
 }
 
 Channel channel_from(const std::pair<std::string, std::string>& name_and_unit) {

@@ -4,6 +4,7 @@
 #include "graze/results/stored_run.hpp"
 #include "graze/study/further_runs.hpp"
 #include "graze/study/run_summary.hpp"
+#include "python/attended.hpp"
 #include "python/tables.hpp"
 
 #include <cmath>
@@ -99,7 +100,7 @@ py::list motion_along(const ResultFile& file, const std::string& run, const std:
     std::vector<SegmentMotion> motion;
     Model model;
     {
-        const py::gil_scoped_release unlocked;
+        const Unlocked unlocked;
         const OrbitRecord record = orbit_named(file, run, point);
         model = stored_model(*file.find_run(run));
         motion = orbit_motion(model, record.point.solution.orbit, samples);
@@ -191,9 +192,9 @@ void bind_results(py::module_& module) {
             [](ResultFile& self, const ResultFile& from, const std::vector<std::string>& names) {
                 return copy_runs(from, self, names);
             },
-            py::arg("source"), py::arg("names"), py::call_guard<py::gil_scoped_release>())
+            py::arg("source"), py::arg("names"), py::call_guard<Unlocked>())
         .def("flush", &ResultFile::flush)
-        .def("copy_to", &ResultFile::copy_to, py::call_guard<py::gil_scoped_release>())
+        .def("copy_to", &ResultFile::copy_to, py::call_guard<Unlocked>())
         .def(
             "table",
             [](const ResultFile& self, const std::string& what, const std::vector<std::string>& runs,

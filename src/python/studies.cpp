@@ -9,11 +9,12 @@
 #include "graze/study/study_table.hpp"
 #include "python/attended.hpp"
 #include "python/figures.hpp"
+#include "python/noted.hpp"
 #include "python/parts.hpp"
 #include "python/tables.hpp"
 
 #include <algorithm>
-#include <mutex>
+#include <optional>
 
 namespace graze::python {
 
@@ -28,43 +29,28 @@ NamedModels named(const HeldModels& models) {
     return result;
 }
 
-/// What is done, told by the threads that compute to the one that has called from Python.
-class ProgressNote {
-public:
-    void note(const StudyProgress& progress) {
-        const std::lock_guard lock(mutex_);
-        progress_ = progress;
-    }
-    void note_orbit(const std::string& run, double parameter, std::size_t number) {
-        const std::lock_guard lock(mutex_);
-        progress_.run = run;
-        progress_.done = number;
-        parameter_ = parameter;
-        followed_ = true;
-    }
-    /// With the interpreter's lock.
-    py::dict object() const {
-        const std::lock_guard lock(mutex_);
-        py::dict object;
-        object["run"] = progress_.run;
-        object["done"] = progress_.done;
-        object["points"] = progress_.points;
-        object["all_done"] = progress_.study_done;
-        object["all_points"] = progress_.study_points;
-        object["parameter"] = followed_ ? py::object(py::float_(parameter_)) : py::none();
-        return object;
-    }
-
-private:
-    mutable std::mutex mutex_;
-    StudyProgress progress_;
-    double parameter_ = 0;
-    bool followed_ = false;
+/// What a study does at present.
+struct StudyNote {
+    StudyProgress progress;
+    std::optional<double> parameter; ///< of the orbit followed last
 };
+
+/// With the interpreter's lock.
+py::dict told_object(const StudyNote& note) {
+    const StudyProgress& progress = note.progress;
+    py::dict object;
+    object["run"] = progress.run;
+    object["done"] = progress.done;
+    object["points"] = progress.points;
+    object["all_done"] = progress.study_done;
+    object["all_points"] = progress.study_points;
+    object["parameter"] = note.parameter;
+    return object;
+}
 
 py::list carried_out(const Study& study, ResultFile& file, int threads, const std::vector<std::string>& only,
                      const py::object& told, const std::shared_ptr<PartExchange>& parts) {
-    ProgressNote progress;
+    Noted<StudyNote> note;
     std::vector<RunReport> reports;
     attended(
         [&](const std::function<bool()>& must_stop) {
@@ -72,16 +58,19 @@ py::list carried_out(const Study& study, ResultFile& file, int threads, const st
             options.jobs = threads;
             options.only = only;
             options.interrupted = must_stop;
-            options.progress = [&](const StudyProgress& made) { progress.note(made); };
-            options.orbit = [&](const std::string& run, const OrbitRecord& record) {
-                progress.note_orbit(run, record.point.parameter, record.number);
+            options.progress = [&](const StudyProgress& made) {
+                note.change([&](StudyNote& now) { now.progress = made; });
             };
-            PointsElsewhere elsewhere;
-            if (parts)
-                elsewhere = [&parts](const auto&... given) { return parts->await(given...); };
-            reports = run_study(study, file, options, elsewhere);
+            options.orbit = [&](const std::string& run, const OrbitRecord& record) {
+                note.change([&](StudyNote& now) {
+                    now.progress.run = run;
+                    now.progress.done = record.number;
+                    now.parameter = record.point.parameter;
+                });
+            };
+            reports = run_study(study, file, options, points_by(parts));
         },
-        told.is_none() ? std::function<void()>() : [&] { told(progress.object()); });
+        telling(told, [&] { return told_object(note.now()); }));
     py::list list;
     for (const RunReport& report : reports) {
         const RunSummary summary = summary_of(report, file);
@@ -152,10 +141,10 @@ py::object figure_of(const Study& study, const ResultFile& file, const std::stri
         if (picture.name == name) {
             ResultPicture made;
             {
-                const py::gil_scoped_release unlocked;
+                const Unlocked unlocked;
                 made = make_picture(picture, file);
             }
-            return object_of(made.figure);
+            return object_of(std::move(made.figure));
         }
     throw InputError("the study has no picture '" + name + "'", "");
 }
@@ -164,10 +153,10 @@ py::object figure_of(const Study& study, const ResultFile& file, const std::stri
 py::tuple picture_of(const ResultFile& file, const std::string& text, const std::string& named) {
     ResultPicture made;
     {
-        const py::gil_scoped_release unlocked;
+        const Unlocked unlocked;
         made = make_picture(parse_picture(text, "picture", named, stored_study(file)), file);
     }
-    return py::make_tuple(object_of(made.figure), columns_of(made.table));
+    return py::make_tuple(object_of(std::move(made.figure)), columns_of(made.table));
 }
 
 } // namespace

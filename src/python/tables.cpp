@@ -1,4 +1,5 @@
 #include "python/tables.hpp"
+#include "python/attended.hpp"
 
 #include <cstdint>
 #include <limits>
@@ -106,7 +107,7 @@ py::tuple columns_of(ResultFile::Rows rows, const std::vector<std::string>& unit
     std::vector<std::string> names;
     std::vector<ColumnCells> columns(rows.columns());
     {
-        const py::gil_scoped_release unlocked;
+        const Unlocked unlocked;
         for (std::size_t c = 0; c < columns.size(); ++c)
             names.push_back(rows.column_name(c));
         while (rows.next())

@@ -25,10 +25,6 @@ namespace {
 
 const Place of_point{"point", 0, 0}, of_parameter{"parameter", 0, 0};
 
-double number_of(const Model& model, const std::string& text, const char* argument) {
-    return value_of_text(model, text, {fmt::format("{} {}", argument, text), 1, 1});
-}
-
 /// A point at which a motion is lost, and what ends its trips.
 class HeldLossPoint {
 public:
@@ -110,7 +106,7 @@ std::vector<double> disturbance_of(const Model& model, const std::vector<std::pa
         if (!state)
             throw InputError({"disturbance", 0, 0}, fmt::format("'{}' is not a state", name),
                              name_advice(name, names_of(model.states), ""));
-        values[*state] = number_of(model, text, "disturbance");
+        values[*state] = value_of(model, text, "disturbance");
     }
     return values;
 }
@@ -183,7 +179,7 @@ public:
                    const std::optional<std::string>& at)
         : Trips(from), asked_(numbers(asked, argument)), argument_(argument) {
         if (at)
-            at_ = number_of(point().model(), *at, "at");
+            at_ = value_of(point().model(), *at, "at");
     }
     std::size_t wanted() const override { return asked_.size(); }
 
@@ -207,16 +203,9 @@ public:
               double cycles)
         : DisturbedTrips(from, rates, "ramp", at), cycles_(cycles) {}
 
-    Table table() const override { return ramp_table(point(), rows_, unit_of_rate(point())); }
+    Table table() const override { return ramp_table(point(), rows_); }
     Figure figure() const override { return ramp_figure(point(), rows_, end().words); }
-    std::vector<std::string> unfinished() const override {
-        std::vector<std::string> messages;
-        for (const RampRow& row : rows_)
-            if (!row.ramped.trip.ended)
-                messages.push_back(fmt::format("the ramp of {:g} has not come to its end: {}", row.rate,
-                                               why_not(row.ramped.trip, longer)));
-        return messages;
-    }
+    std::vector<std::string> unfinished() const override { return unfinished_trips(rows_, longer); }
     std::size_t rows() const override { return rows_.size(); }
 
 private:
@@ -244,15 +233,7 @@ public:
 
     Table table() const override { return wave_table(point(), asked(), trips_); }
     Figure figure() const override { return wave_figure(point(), origin_.value(), asked(), trips_, end().words); }
-    std::vector<std::string> unfinished() const override {
-        std::vector<std::string> messages;
-        for (std::size_t i = 0; i < trips_.size(); ++i)
-            if (!(trips_[i].ended || trips_[i].ending == "end-time"))
-                messages.push_back(
-                    fmt::format("the wave of {:g} has not been simulated to its end: {}", asked()[i],
-                                why_not(trips_[i], "look at whether the parameter has a meaning as far as it swings")));
-        return messages;
-    }
+    std::vector<std::string> unfinished() const override { return unfinished_trips(asked(), trips_); }
     std::size_t rows() const override { return trips_.size(); }
 
 private:
@@ -283,16 +264,7 @@ public:
 
     Table table() const override { return noise_table(point(), asked(), all_); }
     Figure figure() const override { return noise_figure(point(), asked(), all_, settings_); }
-    std::vector<std::string> unfinished() const override {
-        std::vector<std::string> messages;
-        for (std::size_t i = 0; i < all_.size(); ++i)
-            for (const auto& [ending, count] : all_[i].failures)
-                messages.push_back(
-                    fmt::format("{} of {} motions under the noise {:g} are not counted: they ended by {}; look at "
-                                "whether the parameter has a meaning as far as the noise takes it",
-                                count, all_[i].motions, asked()[i], ending));
-        return messages;
-    }
+    std::vector<std::string> unfinished() const override { return unfinished_trips(asked(), all_); }
     std::size_t rows() const override { return all_.size(); }
 
 private:

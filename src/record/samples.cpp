@@ -79,22 +79,29 @@ void Samples::drop_front(std::size_t rows) {
 }
 
 StoredSamples::StoredSamples(RecordHeader header, Samples samples, std::size_t part)
-    : header_(std::move(header)), samples_(std::move(samples)), part_(std::max<std::size_t>(1, part)) {
-    require_size(samples_.values.size(), header_.channels.size(), "channels");
-    require_finite(samples_.times, "a time of a record");
-    for (const std::vector<double>& column : samples_.values) {
-        require_size(column.size(), samples_.rows(), "samples of a channel");
+    : StoredSamples(std::move(header), std::make_shared<const Samples>(std::move(samples)), part) {
+    require_size(samples_->values.size(), header_.channels.size(), "channels");
+    require_finite(samples_->times, "a time of a record");
+    for (const std::vector<double>& column : samples_->values) {
+        require_size(column.size(), samples_->rows(), "samples of a channel");
         require_finite(column, "a sample of a record");
     }
-    if (std::adjacent_find(samples_.times.begin(), samples_.times.end(),
-                           [](double one, double next) { return !(next > one); }) != samples_.times.end())
+    if (std::adjacent_find(samples_->times.begin(), samples_->times.end(),
+                           [](double one, double next) { return !(next > one); }) != samples_->times.end())
         throw InputError("the times of a record do not increase", "give each row once, in the order of time");
 }
 
+StoredSamples::StoredSamples(RecordHeader header, std::shared_ptr<const Samples> samples, std::size_t part)
+    : header_(std::move(header)), samples_(std::move(samples)), part_(std::max<std::size_t>(1, part)) {}
+
+std::unique_ptr<StoredSamples> StoredSamples::again() const {
+    return std::unique_ptr<StoredSamples>(new StoredSamples(header_, samples_, part_)); // a private constructor
+}
+
 bool StoredSamples::read(Samples& samples) {
-    samples.clear(samples_.values.size());
-    const std::size_t last = std::min(next_ + part_, samples_.rows());
-    samples.append(samples_, next_, last);
+    samples.clear(samples_->values.size());
+    const std::size_t last = std::min(next_ + part_, samples_->rows());
+    samples.append(*samples_, next_, last);
     next_ = last;
     return samples.rows() > 0;
 }

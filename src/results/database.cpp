@@ -184,14 +184,17 @@ void Database::execute(const std::string& sql) const {
 void Database::copy_to(const std::string& path) const {
     // The copy is attached while it is written, which is not allowed otherwise.
     const int allowed = sqlite3_limit(database_.get(), SQLITE_LIMIT_ATTACHED, 1);
-    const auto forbid = [this, allowed] { sqlite3_limit(database_.get(), SQLITE_LIMIT_ATTACHED, allowed); };
-    try {
-        execute("VACUUM INTO " + text_literal(path));
-    } catch (...) {
-        forbid();
-        throw;
-    }
-    forbid();
+    const std::string sql = "VACUUM INTO " + text_literal(path);
+    const int code = sqlite3_exec(database_.get(), sql.c_str(), nullptr, nullptr, nullptr);
+    const std::string message = sqlite3_errmsg(database_.get());
+    sqlite3_limit(database_.get(), SQLITE_LIMIT_ATTACHED, allowed);
+    if (code == SQLITE_OK)
+        return;
+    // A plain error comes before anything is written: a file that is there then is somebody else's.
+    std::error_code error;
+    if ((code & 0xff) != SQLITE_ERROR)
+        std::filesystem::remove(path, error);
+    throw_database_error(code, message, (code & 0xff) == SQLITE_CORRUPT ? path_ : path);
 }
 
 std::int64_t Database::value(const std::string& sql) const {

@@ -58,6 +58,55 @@ PointRecord read_point(const Statement& row, const RunRecord& run) {
     return point;
 }
 
+/// Reads points of a run with their samples, one after the other.
+class PointReader {
+public:
+    /// @param which condition or order of the points, in SQL
+    PointReader(const Database& database, const std::string& path, const RunRecord& run, const std::string& which)
+        : path_(path), run_(&run), tables_(run), points_(database.prepare(tables_.select_point() + which)),
+          samples_(database.prepare(tables_.select_sample() + " WHERE rowid >= ?1 AND rowid < ?2 ORDER BY rowid")),
+          multipliers_(database, "multipliers", multiplier_columns(), run) {
+        require_columns(points_, tables_.point_columns.size(), path_);
+        require_columns(samples_, tables_.sample_columns.size(), path_);
+    }
+
+    /// To bind values that the condition names.
+    Statement& points() { return points_; }
+
+    std::optional<PointRecord> next() {
+        if (!points_.step())
+            return std::nullopt;
+        PointRecord point = read_point(points_, *run_);
+        read_samples(point.number, point.result.samples);
+        point.result.multipliers = multipliers_.of_point(*run_, point.number);
+        return point;
+    }
+
+private:
+    void read_samples(std::size_t number, SampleSet& samples) {
+        samples.width = run_->values.size();
+        const auto first = static_cast<std::int64_t>(number) * samples_of_a_point;
+        samples_.bind(1, first).bind(2, first + samples_of_a_point);
+        SampleRow sample;
+        while (samples_.step()) {
+            read_row(samples_, sample_columns(), *run_, sample, *run_);
+            if (sample.sampling >= run_->samplings.size())
+                throw_contradiction(path_,
+                                    fmt::format("run '{}' has a sample of a sampling it does not know", run_->name));
+            samples.samplings.push_back(sample.sampling);
+            samples.times.push_back(sample.time);
+            samples.values.insert(samples.values.end(), sample.values.begin(), sample.values.end());
+        }
+        samples_.reset();
+    }
+
+    std::string path_;
+    const RunRecord* run_;
+    RunTables tables_;
+    Statement points_, samples_;
+    DetailReader<RunRecord, std::complex<double>> multipliers_;
+};
+
 } // namespace
 
 void ResultFile::add_point(const std::string& name, const PointRecord& point) {
@@ -115,36 +164,34 @@ std::vector<PointRecord> ResultFile::last_points(const std::string& name, std::s
     return points;
 }
 
+std::vector<std::size_t> ResultFile::point_numbers(const std::string& name) const {
+    std::vector<std::size_t> numbers;
+    const auto run = find_run(name);
+    if (!run || run->is_branch())
+        return numbers;
+    Statement rows = state_->database.prepare(fmt::format("SELECT number FROM {} WHERE mode IN ({}) ORDER BY number",
+                                                          RunTables(*run).points, text_literals(run->modes)));
+    while (rows.step())
+        numbers.push_back(static_cast<std::size_t>(rows.integer(0)));
+    return numbers;
+}
+
 std::optional<PointRecord> ResultFile::point(const std::string& name, std::size_t number) const {
     const auto run = find_run(name);
     if (!run || run->is_branch())
         return std::nullopt;
-    const RunTables tables(*run);
-    Statement row = state_->database.prepare(tables.select_point() + " WHERE number = ?");
-    row.bind(1, number);
-    require_columns(row, tables.point_columns.size(), path());
-    if (!row.step())
-        return std::nullopt;
-    PointRecord point = read_point(row, *run);
-    SampleSet& samples = point.result.samples;
-    samples.width = run->values.size();
-    Statement rows =
-        state_->database.prepare(tables.select_sample() + " WHERE rowid >= ?1 AND rowid < ?2 ORDER BY rowid");
-    const auto first = static_cast<std::int64_t>(number) * samples_of_a_point;
-    rows.bind(1, first).bind(2, first + samples_of_a_point);
-    require_columns(rows, tables.sample_columns.size(), path());
-    SampleRow sample;
-    while (rows.step()) {
-        read_row(rows, sample_columns(), *run, sample, *run);
-        if (sample.sampling >= run->samplings.size())
-            throw_contradiction(path(), fmt::format("run '{}' has a sample of a sampling it does not know", name));
-        samples.samplings.push_back(sample.sampling);
-        samples.times.push_back(sample.time);
-        samples.values.insert(samples.values.end(), sample.values.begin(), sample.values.end());
-    }
-    point.result.multipliers =
-        DetailReader(state_->database, "multipliers", multiplier_columns(), *run).of_point(*run, number);
-    return point;
+    PointReader reader(state_->database, path(), *run, " WHERE number = ?1");
+    reader.points().bind(1, number);
+    return reader.next();
+}
+
+void ResultFile::each_point(const std::string& name, const std::function<void(const PointRecord& point)>& use) const {
+    const auto run = find_run(name);
+    if (!run || run->is_branch())
+        return;
+    PointReader reader(state_->database, path(), *run, " ORDER BY number");
+    while (const auto point = reader.next())
+        use(*point);
 }
 
 std::optional<PointRecord> ResultFile::nearest_point(const std::string& name, const std::string& coordinate,

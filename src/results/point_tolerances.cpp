@@ -57,7 +57,7 @@ Tolerance read_tolerance(const LocatedPoint& found, const std::string& text, con
         size.pop_back();
     if (size.empty())
         throw InputError(place, "a tolerance without a size", example);
-    result.size = value_of_text(found.model, size, {fmt::format("{} {}", option, size), 1, 1});
+    result.size = value_of(found.model, size, option);
     if (share) {
         const double value = found.point.solution.orbit.parameters[result.parameter.place()];
         if (value == 0)
@@ -75,9 +75,7 @@ Tolerance read_tolerance(const LocatedPoint& found, const std::string& text, con
 
 void read_interval(YieldSettings& settings, const LocatedPoint& found, const std::string& text,
                    const std::string& option) {
-    const auto number = [&](const std::string& part) {
-        return value_of_text(found.model, part, {fmt::format("{} {}", option, part), 1, 1});
-    };
+    const auto number = [&](const std::string& part) { return value_of(found.model, part, option); };
     const std::size_t colon = text.find(':');
     if (colon == std::string::npos || text.size() == 1)
         throw InputError(Place{option, 0, 0}, fmt::format("'{}' is no interval", text),

@@ -194,9 +194,12 @@ void ResultFile::flush() {
 }
 
 void ResultFile::copy_to(const std::string& path) {
+    if (!state_->lock)
+        throw InputError(Place{this->path(), 0, 0}, "a result file is not copied while it is open for reading only",
+                         "open it for writing");
     flush();
     std::error_code error;
-    if (std::filesystem::exists(path, error))
+    if (std::filesystem::exists(std::filesystem::symlink_status(path, error)))
         throw FileError(path, "the file is there already", "choose another name, or remove it first");
     state_->database.copy_to(path);
 }

@@ -4,6 +4,8 @@
 #include "graze/results/name_advice.hpp"
 #include "graze/trajectory/recorder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -71,10 +73,23 @@ private:
     double last_ = 0;
 };
 
-class ContactTable : public TableRecorder {
+/// A table whose rows show states with further quantities.
+class StateTable : public TableRecorder {
+public:
+    void begin(const Trajectory& trajectory, std::optional<double> /*duration*/) override {
+        columns_.set_parameters(trajectory.parameters());
+    }
+
+protected:
+    StateTable(const Simulation& simulation, const TableRequest& request)
+        : columns_(simulation.model(), request.quantities) {}
+    StateColumns columns_;
+};
+
+class ContactTable : public StateTable {
 public:
     ContactTable(const Simulation& simulation, const TableRequest& request)
-        : model_(&simulation.model()), shown_(request.events), columns_(*model_, request.quantities) {
+        : StateTable(simulation, request), model_(&simulation.model()), shown_(request.events) {
         table_ = Table(columns_.after(columns_.after({{"time", model_->time_unit},
                                                       {"kind", ""},
                                                       {"event", ""},
@@ -84,10 +99,6 @@ public:
                                                       {"rate_before", ""},
                                                       {"rate_after", ""}}),
                                       "_after"));
-    }
-
-    void begin(const Trajectory& trajectory, std::optional<double> /*duration*/) override {
-        columns_.set_parameters(trajectory.parameters());
     }
 
     void contact(const Contact& contact) override {
@@ -108,19 +119,14 @@ public:
 private:
     const Model* model_;
     std::vector<bool> shown_;
-    StateColumns columns_;
 };
 
-class SectionTable : public TableRecorder {
+class SectionTable : public StateTable {
 public:
     SectionTable(const Simulation& simulation, const TableRequest& request)
-        : simulation_(simulation), end_(request.first_extremum), columns_(simulation.model(), request.quantities) {
+        : StateTable(simulation, request), simulation_(simulation), end_(request.first_extremum) {
         table_ = Table(
             columns_.after({{"section", ""}, {"time", simulation.model().time_unit}, {"direction", ""}, {"mode", ""}}));
-    }
-
-    void begin(const Trajectory& trajectory, std::optional<double> /*duration*/) override {
-        columns_.set_parameters(trajectory.parameters());
     }
 
     void passage(const Passage& passage) override {
@@ -134,14 +140,13 @@ public:
 private:
     Simulation simulation_;
     std::size_t end_;
-    StateColumns columns_;
 };
 
-class ExtremumTable : public TableRecorder {
+class ExtremumTable : public StateTable {
 public:
     ExtremumTable(const Simulation& simulation, const TableRequest& request)
-        : simulation_(simulation), first_(request.first_extremum), values_(simulation.model(), request.extrema),
-          columns_(simulation.model(), request.quantities) {
+        : StateTable(simulation, request), simulation_(simulation), first_(request.first_extremum),
+          values_(simulation.model(), request.extrema) {
         table_ = Table(columns_.after({{"expression", ""},
                                        {"time", simulation.model().time_unit},
                                        {"kind", ""},
@@ -150,9 +155,9 @@ public:
                                        {"at_contact", ""}}));
     }
 
-    void begin(const Trajectory& trajectory, std::optional<double> /*duration*/) override {
+    void begin(const Trajectory& trajectory, std::optional<double> duration) override {
+        StateTable::begin(trajectory, duration);
         values_.set_parameters(trajectory.parameters());
-        columns_.set_parameters(trajectory.parameters());
     }
 
     void passage(const Passage& passage) override {
@@ -168,7 +173,6 @@ private:
     Simulation simulation_;
     std::size_t first_;
     QuantityEvaluator values_;
-    StateColumns columns_;
 };
 
 class MinimumTable : public TableRecorder {
@@ -290,6 +294,12 @@ std::optional<TableKind> table_kind(std::string_view name) {
 
 std::vector<std::string> table_kind_names() {
     return names_of(kinds_of_tables());
+}
+
+void require_room_for_samples(const TableRequest& request, std::optional<double> duration, const char* asked) {
+    if (request.every && duration && *duration / *request.every > most_samples)
+        throw InputError(Place{asked, 0, 0}, fmt::format("there would be more than {} rows", most_samples),
+                         "choose a larger distance or a shorter time");
 }
 
 std::unique_ptr<TableRecorder> make_table_recorder(const Simulation& simulation, const TableRequest& request) {

@@ -75,15 +75,20 @@ void write_json(std::ostream& out, const Table& table, int digits, const JsonObj
     out << "]}\n";
 }
 
-std::vector<JsonObject> json_rows(const Table& table) {
+void add_cell(JsonObject& object, const std::string& name, const Table& table, std::size_t row, std::size_t column) {
+    if (table.is_text(row, column))
+        object.add(name, table.text(row, column));
+    else
+        object.add(name, table.number(row, column));
+}
+
+std::vector<JsonObject> json_rows(const Table& table, MissingCells missing) {
     std::vector<JsonObject> rows;
     for (std::size_t row = 0; row < table.rows(); ++row) {
         JsonObject& object = rows.emplace_back();
         for (std::size_t column = 0; column < table.columns().size(); ++column)
-            if (table.is_text(row, column))
-                object.add(table.columns()[column].name, table.text(row, column));
-            else if (!table.is_missing(row, column))
-                object.add(table.columns()[column].name, table.number(row, column));
+            if (missing == MissingCells::null || table.is_text(row, column) || !table.is_missing(row, column))
+                add_cell(object, table.columns()[column].name, table, row, column);
     }
     return rows;
 }

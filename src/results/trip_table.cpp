@@ -77,11 +77,11 @@ Table trip_table(const OvershootTrips& one, const OvershootTrips& other) {
     return table;
 }
 
-Table ramp_table(const LossPoint& point, const std::vector<RampRow>& rows, const std::string& rate_unit) {
+Table ramp_table(const LossPoint& point, const std::vector<RampRow>& rows) {
     const std::string& time = point.model().time_unit;
-    std::vector<Table::Column> columns{{"rate", rate_unit},   {"from", point.unit}, {"value", point.unit},
-                                       {"delay", point.unit}, {"delay_cycles", ""}, {"time", time},
-                                       {"ending", ""}};
+    std::vector<Table::Column> columns{
+        {"rate", unit_of_rate(point)}, {"from", point.unit}, {"value", point.unit}, {"delay", point.unit},
+        {"delay_cycles", ""},          {"time", time},       {"ending", ""}};
     if (point.fold)
         columns.push_back({"predicted_delay", point.unit});
     Table table(std::move(columns));

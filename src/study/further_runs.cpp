@@ -1,14 +1,18 @@
 #include "graze/study/further_runs.hpp"
 
+#include "base/letter_case.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/study/run_times.hpp"
 #include "graze/study/stored_study.hpp"
+#include "results/schema.hpp"
 #include "study/run_record.hpp"
 #include "study/run_schedule.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 namespace graze {
 
@@ -36,11 +40,8 @@ bool rename_needs(StudyRun& run, const Names& names) {
 }
 
 /// The record of a copy, which runs of other names come before.
-RunRecord renamed(const RunRecord& record, const StudyRun& run, const ResultFile& to) {
-    std::string parents;
-    for (const auto& need : run.needs())
-        parents += (parents.empty() ? "" : " ") + to.find_run(need.first)->fingerprint;
-    const RunRecord asked = record_of(run, parents, record.points);
+RunRecord renamed(const RunRecord& record, const StudyRun& run, const Names& fingerprints) {
+    const RunRecord asked = record_of(run, parent_fingerprint(run, fingerprints), record.points);
     RunRecord copy = record;
     copy.settings = asked.settings;
     copy.fingerprint = asked.fingerprint;
@@ -57,22 +58,6 @@ std::string same_run(const ResultFile& from, const RunRecord& run, const ResultF
     return "";
 }
 
-std::string free_name(const std::string& name, const std::vector<RunRecord>& there) {
-    std::string result = name;
-    for (int number = 2; std::ranges::find(there, result, &RunRecord::name) != there.end(); ++number)
-        result = fmt::format("{}_{}", name, number);
-    return result;
-}
-
-/// Of an unfinished run not all points are there.
-std::vector<std::size_t> numbers_of_points(const ResultFile& file, const std::string& run) {
-    std::vector<std::size_t> numbers;
-    auto rows = file.query(fmt::format("SELECT number FROM \"points_{}\" ORDER BY number", run));
-    while (rows.next())
-        numbers.push_back(static_cast<std::size_t>(rows.integer(0)));
-    return numbers;
-}
-
 void copy_results(const ResultFile& from, const RunRecord& run, ResultFile& to, const RunRecord& copy) {
     to.begin_run(copy);
     to.name_points(copy.name, run.point_names);
@@ -80,9 +65,7 @@ void copy_results(const ResultFile& from, const RunRecord& run, ResultFile& to, 
         for (const OrbitRecord& orbit : from.orbits(run.name, false))
             to.add_orbit(copy.name, orbit);
     else
-        for (const std::size_t number : numbers_of_points(from, run.name))
-            if (const auto point = from.point(run.name, number))
-                to.add_point(copy.name, *point);
+        from.each_point(run.name, [&](const PointRecord& point) { to.add_point(copy.name, point); });
     if (const EstimateRecords found = from.estimates(run.name); !found.numbers.empty())
         to.set_estimates(copy.name, found);
     to.flush();
@@ -101,18 +84,24 @@ std::map<std::string, std::string> copy_runs(const ResultFile& from, ResultFile&
     const Study study = stored_study(from);
     const std::set<std::string> wanted = wanted_runs(study, names);
     const std::vector<RunRecord> before = to.runs();
-    Names copies;
+    Names copies, fingerprints; // fingerprints by the names there
+    std::set<std::string> taken;
+    for (const RunRecord& one : before) {
+        fingerprints[one.name] = one.fingerprint;
+        taken.insert(in_small_letters(one.name));
+    }
     for (StudyRun run : study.runs) {
         const auto record = wanted.contains(run.name) ? from.find_run(run.name) : std::nullopt;
         if (!record)
             continue;
-        const RunRecord same = rename_needs(run, copies) ? renamed(*record, run, to) : *record;
+        const RunRecord same = rename_needs(run, copies) ? renamed(*record, run, fingerprints) : *record;
         std::string& name = copies[record->name];
         name = same_run(from, same, to, before);
         if (!name.empty())
             continue;
         RunRecord copy = same;
-        copy.name = name = free_name(record->name, to.runs());
+        copy.name = name = distinct_name(record->name, taken);
+        fingerprints[name] = copy.fingerprint;
         copy_results(from, *record, to, copy);
     }
     return copies;

@@ -68,10 +68,7 @@ Function following_states(const StudyRun& run) {
 
 std::size_t direction_of(const StudyRun& run, std::size_t point) {
     require_index(point, points_of(run), "point");
-    if (run.kind != RunKind::sweep)
-        return 0;
-    const bool second = point % row_length(run) >= sweep_length(run);
-    return run.motion().direction == SweepDirection::both ? (second ? 1 : 0) : 0;
+    return point % row_length(run) < sweep_length(run) ? 0 : 1;
 }
 
 std::vector<double> coordinates_of(const StudyRun& run, std::size_t point) {

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace graze {
@@ -20,7 +21,8 @@ static_assert(std::endian::native == std::endian::little, "bytes are exchanged i
 /// Writes values one after another as bytes, every bit of them.
 class ByteWriter {
 public:
-    static constexpr bool reading = false;
+    /// @param mark the first bytes, by which a reader knows what follows
+    explicit ByteWriter(const std::string& mark = {}) : bytes_(mark) {}
 
     template <class... Values>
     void operator()(const Values&... values) {
@@ -29,6 +31,13 @@ public:
     template <class Choice>
     void choice(Choice value, Choice) {
         write(static_cast<std::uint64_t>(value));
+    }
+    /// @param describe is called with this and each item
+    template <class Item, class Describe>
+    void list(const std::vector<Item>& items, Describe describe) {
+        write(std::uint64_t{items.size()});
+        for (const Item& item : items)
+            describe(*this, item);
     }
     std::string take() { return std::move(bytes_); }
 
@@ -63,9 +72,11 @@ private:
 /// Reads what ByteWriter has written. @throws InputError, from each function, where that is impossible
 class ByteReader {
 public:
-    static constexpr bool reading = true;
-
-    explicit ByteReader(std::string_view bytes) : left_(bytes) {}
+    explicit ByteReader(std::string_view bytes, std::string_view mark = {}) : left_(bytes) {
+        if (!bytes.starts_with(mark))
+            fail();
+        left_.remove_prefix(mark.size());
+    }
 
     template <class... Values>
     void operator()(Values&... values) {
@@ -80,9 +91,19 @@ public:
             fail();
         value = static_cast<Choice>(index);
     }
+    template <class Item, class Describe>
+    void list(std::vector<Item>& items, Describe describe) {
+        items.resize(read_size(1));
+        for (Item& item : items)
+            describe(*this, item);
+    }
     bool is_at_end() const { return left_.empty(); }
+    void require_end() const {
+        if (!is_at_end())
+            fail();
+    }
     [[noreturn]] static void fail() {
-        throw InputError("these bytes are no part of a run", "let it be computed again");
+        throw InputError("these bytes are no part of a computation", "let it be computed again");
     }
 
 private:
@@ -92,6 +113,14 @@ private:
         const std::string_view bytes = left_.substr(0, size);
         left_.remove_prefix(size);
         return bytes;
+    }
+    /// The number of items, each of which takes `least` bytes at least.
+    std::uint64_t read_size(std::size_t least) {
+        std::uint64_t size = 0;
+        read(size);
+        if (size > left_.size() / least)
+            fail();
+        return size;
     }
     template <class Number>
     requires std::is_arithmetic_v<Number>
@@ -123,11 +152,8 @@ private:
     }
     template <class Item>
     void read(std::vector<Item>& items) {
-        std::uint64_t size = 0;
-        read(size);
-        if (size > left_.size() / sizeof(Item)) // each takes as many bytes at least
-            fail();
-        items.resize(size);
+        constexpr bool is_number = std::is_arithmetic_v<Item> || std::is_same_v<Item, std::complex<double>>;
+        items.resize(read_size(is_number ? sizeof(Item) : 1));
         for (Item& item : items)
             read(item);
     }

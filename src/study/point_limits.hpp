@@ -9,7 +9,7 @@ namespace graze {
 /// Points: more would take months.
 constexpr double most_points = 1e9;
 /// Points that begin by themselves, of each of which something is kept in memory.
-constexpr double most_chains = 2e7;
+constexpr double most_rows = 2e7;
 /// Values along one axis.
 constexpr std::size_t most_values = 10'000'000;
 /// Samples of a record that a virtual bench makes, which are in memory.

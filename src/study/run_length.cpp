@@ -130,4 +130,19 @@ RunLength run_length(const Model& model, const RunLengthRequest& request) {
     return length;
 }
 
+void run_legs(Trajectory& trajectory, JetSet& jets, RunControl& control, const RunLength& length,
+              const std::function<bool()>& interrupted, const std::function<void()>& begin) {
+    if (!length.transient.empty()) {
+        control.begin(length.transient, 0, false);
+        run(trajectory, jets);
+        const Ending ending = trajectory.outcome().ending;
+        if (interrupted() || (ending != Ending::end_time && ending != Ending::stopped))
+            return;
+        trajectory.extend(trajectory.time() + length.shown.duration);
+    }
+    control.begin(length.shown, trajectory.time(), true);
+    begin();
+    run(trajectory, jets);
+}
+
 } // namespace graze

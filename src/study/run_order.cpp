@@ -30,8 +30,8 @@ double MotionRequest::points() const {
     return product;
 }
 
-double MotionRequest::chains(RunKind kind) const {
-    const bool swept = kind == RunKind::sweep && carry && !axes.empty() && !axes.front().values.empty();
+double MotionRequest::rows(RunKind kind) const {
+    const bool swept = kind == RunKind::sweep && !axes.empty() && !axes.front().values.empty();
     return swept ? points() / static_cast<double>(axes.front().values.size()) : points();
 }
 

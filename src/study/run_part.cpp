@@ -5,6 +5,7 @@
 #include "graze/study/stored_study.hpp"
 #include "study/point_bytes.hpp"
 #include "study/run_record.hpp"
+#include "study/same_version.hpp"
 #include "study/settings_fields.hpp"
 
 #include <fmt/format.h>
@@ -29,16 +30,13 @@ std::unique_ptr<SearchFactory> searches_of(const StudyRun& run, const System& sy
 }
 
 /// A run and its start, as they are written.
-struct Written {
-    AskedRun asked;
-    std::string model; ///< text of its file
+struct StartedRun : WrittenRun {
     std::optional<PointRecord> start;
 };
 
 template <class Fields, class Run>
-void describe_written(Fields& fields, Run& run) {
-    describe_fields(fields, "version", run.asked.version, "name", run.asked.name, "kind", run.asked.kind, "model",
-                    run.model, "settings", run.asked.settings, "units", run.asked.units);
+void describe_started(Fields& fields, Run& run) {
+    describe_written(fields, run);
     if (!fields.has("state", run.start.has_value()))
         return;
     if constexpr (Fields::reading)
@@ -46,28 +44,24 @@ void describe_written(Fields& fields, Run& run) {
     describe_fields(fields, "state", run.start->result.state, "mode", run.start->result.mode);
 }
 
-Written read_written(const std::string& text) {
+StartedRun read_started(const std::string& text) {
     const Place place{"part of a run", 0, 0};
     const Json json = parse_json(text, place);
     SettingsReader fields(json, nullptr, place);
-    Written run;
-    describe_written(fields, run);
-    if (run.asked.version != GRAZE_VERSION)
-        throw InputError(
-            place,
-            fmt::format("a part of a run of graze {} cannot be computed by graze {}", run.asked.version, GRAZE_VERSION),
-            "install the same version everywhere");
+    StartedRun run;
+    describe_started(fields, run);
+    require_same_version(run.asked.version, place.file);
     run.asked.file = place.file;
     return run;
 }
 
-StudyRun run_of(const Written& written) {
-    Model model = parse_model(written.model, "model of a part of a run");
-    const bool fits = !written.start || (written.start->result.state.size() == model.states.size() &&
-                                         written.start->result.mode < model.modes.size());
+StudyRun run_of(const StartedRun& started) {
+    Model model = parse_model(started.model, "model of a part of a run");
+    const bool fits = !started.start || (started.start->result.state.size() == model.states.size() &&
+                                         started.start->result.mode < model.modes.size());
     if (!fits)
         throw InputError("the start of a part of a run does not fit its model", "let it be written again");
-    StudyRun run = run_of(written.asked, std::move(model));
+    StudyRun run = run_of(started.asked, std::move(model));
     if (!run.has_motions())
         throw InputError(fmt::format("a run of kind {} has no parts", name_of(run.kind)), "use a sweep or a basin");
     return run;
@@ -84,10 +78,10 @@ void describe_result(Bytes& bytes, Result& result) {
           result.samples.times, result.samples.values);
 }
 
-ByteReader after(std::string_view bytes, const std::string& mark) {
-    if (!bytes.starts_with(mark))
+/// @throws InputError unless it is known of each chain of a part what is there, or of none
+void require_consistent(const RunPart& part) {
+    if (part.chains.first > part.chains.last || !(part.known.empty() || part.known.size() == part.chains.size()))
         ByteReader::fail();
-    return ByteReader(bytes.substr(mark.size()));
 }
 
 /// The numbers of the points that a part consists of, in the order of the chains.
@@ -118,20 +112,16 @@ PartedRun::PartedRun(const StudyRun& run, const PointRecord* start)
     : state_(std::make_unique<const State>(run, start)) {}
 
 PartedRun::PartedRun(const std::string& text) {
-    const Written written = read_written(text);
-    state_ = std::make_unique<const State>(run_of(written), written.start ? &*written.start : nullptr);
+    const StartedRun started = read_started(text);
+    state_ = std::make_unique<const State>(run_of(started), started.start ? &*started.start : nullptr);
 }
 
 PartedRun::~PartedRun() = default;
 
 std::string PartedRun::text() const {
-    const StudyRun& run = state_->run;
-    const Written written{
-        {run.name, std::string(name_of(run.kind)), settings_of(run), GRAZE_VERSION, {}, run.value_units},
-        write_model(run.model),
-        state_->start};
+    const StartedRun started{written(state_->run), state_->start};
     SettingsWriter fields;
-    describe_written(fields, written);
+    describe_started(fields, started);
     return fields.text();
 }
 
@@ -147,7 +137,7 @@ std::size_t PartedRun::chain_length() const {
     return state_->plan.chain_length;
 }
 
-bool PartedRun::compute(ChainRange chains, std::span<const ChainProgress> known, const ExecutionOptions& options,
+bool PartedRun::compute(ItemRange chains, std::span<const ChainProgress> known, const ExecutionOptions& options,
                         const PointSink& sink) const {
     require_room(this->chains(), chains.last, "chains of a part");
     require_room(chains.last, chains.first, "chains before a part");
@@ -161,48 +151,48 @@ bool PartedRun::compute(ChainRange chains, std::span<const ChainProgress> known,
 }
 
 std::string bytes_of(const RunPart& part) {
-    ByteWriter bytes;
+    ByteWriter bytes(part_mark);
     bytes(part.chains.first, part.chains.last, part.known.size());
     for (const ChainProgress& chain : part.known)
         bytes(chain.done, chain.regular, chain.state, chain.mode);
-    return part_mark + bytes.take();
+    return bytes.take();
 }
 
 RunPart part_of(std::string_view bytes) {
-    ByteReader reader = after(bytes, part_mark);
+    ByteReader reader(bytes, part_mark);
     RunPart part;
     std::size_t known = 0;
     reader(part.chains.first, part.chains.last, known);
-    if (part.chains.first > part.chains.last || (known > 0 && known != part.chains.size()))
-        ByteReader::fail();
     for (std::size_t chain = 0; chain < known; ++chain) {
         ChainProgress& one = part.known.emplace_back();
         reader(one.done, one.regular, one.state, one.mode);
     }
-    if (!reader.is_at_end())
-        ByteReader::fail();
+    reader.require_end();
+    require_consistent(part);
     return part;
 }
 
 std::string computed_points(const PartedRun& run, const RunPart& part, const std::function<bool()>& interrupted) {
+    require_consistent(part);
     for (const ChainProgress& chain : part.known)
-        if (chain.done > 0 &&
+        if (chain.done > 0 && chain.done < run.chain_length() &&
             (chain.state.size() != run.run().model.states.size() || chain.mode >= run.run().model.modes.size()))
             ByteReader::fail();
     ExecutionOptions options;
     options.interrupted = interrupted;
-    ByteWriter bytes;
+    ByteWriter bytes(points_mark);
     const bool complete = run.compute(part.chains, part.known, options, [&](std::size_t point, PointResult& result) {
         bytes(point);
         describe_result(bytes, result);
     });
-    return complete ? points_mark + bytes.take() : std::string();
+    return complete ? bytes.take() : std::string();
 }
 
 void read_points(const PartedRun& run, const RunPart& part, std::string_view bytes, const PointSink& sink) {
+    require_consistent(part);
     if (part.chains.last > run.chains())
         ByteReader::fail();
-    ByteReader reader = after(bytes, points_mark);
+    ByteReader reader(bytes, points_mark);
     std::vector<std::pair<std::size_t, PointResult>> points;
     while (!reader.is_at_end()) {
         auto& [number, result] = points.emplace_back();

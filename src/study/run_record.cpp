@@ -92,6 +92,25 @@ RunRecord record_of(const StudyRun& run, const std::string& parent_fingerprint, 
     return record;
 }
 
+std::string parent_fingerprint(const StudyRun& run, const std::map<std::string, std::string>& fingerprints) {
+    std::string all;
+    for (const auto& need : run.needs())
+        if (const auto found = fingerprints.find(need.first); found != fingerprints.end())
+            all += (all.empty() ? "" : " ") + found->second;
+    return all;
+}
+
+WrittenRun written(const StudyRun& run) {
+    WrittenRun result{{run.name, std::string(name_of(run.kind)), settings_of(run), GRAZE_VERSION, {}, run.value_units},
+                      write_model(run.model)};
+    if (run.is_branch()) {
+        result.asked.units.clear();
+        for (const Monitor& monitor : run.branch().settings.monitors)
+            result.asked.units.push_back(monitor.unit);
+    }
+    return result;
+}
+
 std::vector<std::string> direction_names(const StudyRun& run) {
     if (run.kind == RunKind::record)
         return run.record().directions;

@@ -37,6 +37,14 @@ std::vector<ChainProgress> progress_of(const ResultFile& file, const PartedRun& 
     const StudyRun& run = parted.run();
     const std::size_t length = parted.chain_length();
     std::vector<ChainProgress> progress(parted.chains());
+    if (length == 1) { // nothing is carried on
+        for (const std::size_t point : file.point_numbers(run.name))
+            if (point < progress.size()) {
+                progress[point].done = 1;
+                ++done;
+            }
+        return progress;
+    }
     for (const PointRecord& point : file.last_points(run.name, length)) {
         const std::size_t chain = point.number / length;
         if (chain >= progress.size() || point.result.mode >= run.model.modes.size())
@@ -222,7 +230,7 @@ private:
         report.problem = problem;
         report.remedy = remedy;
         failed_.insert(run.name);
-        const RunRecord record = record_of(run, parent_fingerprint(run), 0);
+        const RunRecord record = record_of(run, parent_fingerprint(run, fingerprints_), 0);
         const auto known = fingerprints_.find(run.name); // includes the parameters that other runs have found
         const auto stored = file.find_run(run.name);
         if (!stored || stored->fingerprint != (known == fingerprints_.end() ? record.fingerprint : known->second))
@@ -230,18 +238,10 @@ private:
         report.points = file.point_count(run.name);
     }
 
-    std::string parent_fingerprint(const StudyRun& run) const {
-        std::string all;
-        for (const auto& need : run.needs())
-            if (const auto found = fingerprints_.find(need.first); found != fingerprints_.end())
-                all += (all.empty() ? "" : " ") + found->second;
-        return all;
-    }
-
     /// True when the file has the run as it is asked for; otherwise notes that it begins.
     bool is_there_or_begins(const StudyRun& run, std::size_t points, Work& work) {
         return file_.with([&](ResultFile& file) {
-            const RunRecord record = record_of(run, parent_fingerprint(run), points);
+            const RunRecord record = record_of(run, parent_fingerprint(run, fingerprints_), points);
             fingerprints_[run.name] = record.fingerprint;
             const bool is_there = is_done(record, file);
             if (!is_there)

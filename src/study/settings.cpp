@@ -124,7 +124,7 @@ void check(const StudyRun& run, const SettingsReader& fields) {
         fields.fail("vary", "something with less than a thousand million points");
     if (run.kind == RunKind::sweep && (motion.axes.empty() || motion.axes.front().values.empty()))
         fields.fail("vary", "something to sweep along");
-    if (!(motion.chains(run.kind) <= most_chains))
+    if (!(motion.rows(run.kind) <= most_rows))
         fields.fail("vary", "something with less than twenty million points that begin by themselves");
     for (const Sampling& sampling : motion.samplings) {
         if (sampling.at == Sampling::At::section && !run.model.find_section(sampling.section))

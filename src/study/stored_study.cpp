@@ -69,33 +69,18 @@ void describe_study(Fields& fields, One& study) {
 }
 
 /// A run as it is stored with the study, whether it has begun or not.
-struct PlannedRun {
-    AskedRun asked;
-    std::string model; ///< text of its file
+struct PlannedRun : WrittenRun {
     std::vector<PointName> point_names;
 };
 
 template <class Fields, class Runs>
 void describe_runs(Fields& fields, Runs& runs) {
     fields.list("runs", runs, [](auto& one, auto& run) {
-        describe_fields(one, "name", run.asked.name, "kind", run.asked.kind, "model", run.model, "settings",
-                        run.asked.settings, "version", run.asked.version, "units", run.asked.units);
+        describe_written(one, run);
         if (one.has("point_names", !run.point_names.empty()))
             one.list("point_names", run.point_names,
                      [](auto& point, auto& name) { describe_fields(point, "label", name.label, "name", name.name); });
     });
-}
-
-PlannedRun planned(const StudyRun& run) {
-    PlannedRun result{{run.name, std::string(name_of(run.kind)), settings_of(run), GRAZE_VERSION, {}, run.value_units},
-                      write_model(run.model),
-                      run.point_names};
-    if (run.is_branch()) {
-        result.asked.units.clear();
-        for (const Monitor& monitor : run.branch().settings.monitors)
-            result.asked.units.push_back(monitor.unit);
-    }
-    return result;
 }
 
 /// @throws InputError as for runs that were begun
@@ -162,7 +147,7 @@ std::string fingerprint_of(std::string_view text) {
 void store_study(const Study& study, ResultFile& file) {
     std::vector<PlannedRun> runs;
     for (const StudyRun& run : study.runs)
-        runs.push_back(planned(run));
+        runs.push_back({written(run), run.point_names});
     SettingsWriter fields;
     describe_study(fields, study);
     describe_runs(fields, runs);

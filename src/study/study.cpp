@@ -141,7 +141,7 @@ public:
     /// Lets the runs that are read go on from those of another study.
     void go_on_from(const Study& earlier) {
         study_.runs = earlier.runs;
-        earlier_ = names_ = names_of(earlier.runs);
+        names_ = names_of(earlier.runs);
     }
 
     Study read(const toml::table& root) {
@@ -205,7 +205,7 @@ private:
     void read_runs() {
         for (const TomlEntry& entry : run_entries_)
             mistakes_.attempt([&] {
-                if (std::ranges::find(earlier_, entry.name) != earlier_.end())
+                if (std::ranges::find(names_, entry.name) != names_.end())
                     throw InputError(entry.place, fmt::format("there is a run '{}' already", entry.name),
                                      "choose another name");
                 names_.push_back(entry.name);
@@ -293,7 +293,6 @@ private:
     std::optional<TomlEntry> runs_, pictures_, tables_;
     std::vector<TomlEntry> run_entries_;
     std::vector<std::string> names_, picture_names_; ///< including those of entries that could not be read
-    std::vector<std::string> earlier_;               ///< names of the runs from which others go on
     std::map<std::string, RunKeys> keys_;
     std::size_t values_ = 0; ///< number of values of all axes
 };

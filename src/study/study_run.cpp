@@ -68,10 +68,10 @@ void set_values(const StudyReader& reader, Model& model, const TomlEntry& entry,
 void check_points(const StudyReader& reader, const StudyRun& run, const TomlEntry& vary) {
     if (!(run.motion().points() <= most_points))
         reader.fail(vary, "there would be more than a thousand million points", "take larger steps");
-    if (!(run.motion().chains(run.kind) <= most_chains))
-        reader.fail(
-            vary, fmt::format("there would be more than {} million points that begin by themselves", most_chains / 1e6),
-            "make several studies, or sweep along the axis with the most values");
+    if (!(run.motion().rows(run.kind) <= most_rows))
+        reader.fail(vary,
+                    fmt::format("there would be more than {} million points that begin by themselves", most_rows / 1e6),
+                    "make several studies, or sweep along the axis with the most values");
 }
 
 /// Sets where motions are sampled and which contacts count, unless the study says so.

@@ -101,4 +101,10 @@ LossPoint loss_point(const System& system, const SpecialPoint& point, const std:
     return found;
 }
 
+std::string unit_of_rate(const LossPoint& point) {
+    const std::string &unit = point.unit, &time = point.model().time_unit;
+    return unit.empty() && time.empty() ? ""
+                                        : fmt::format("{}/{}", unit.empty() ? "1" : unit, time.empty() ? "1" : time);
+}
+
 } // namespace graze

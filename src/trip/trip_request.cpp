@@ -36,10 +36,6 @@ void add_decades(std::vector<double>& values, double first, double last, const s
     }
 }
 
-double number_of(const Model& model, const std::string& text, const std::string& option) {
-    return value_of_text(model, text, {fmt::format("{} {}", option, text), 1, 1});
-}
-
 } // namespace
 
 std::vector<double> numbers_by_decades(const Model& model, const std::vector<std::string>& items,
@@ -47,7 +43,7 @@ std::vector<double> numbers_by_decades(const Model& model, const std::vector<std
     std::vector<double> values;
     for (const std::string& text : items) {
         const std::size_t colon = text.find(':');
-        const auto number = [&](const std::string& part) { return number_of(model, part, option); };
+        const auto number = [&](const std::string& part) { return value_of(model, part, option); };
         if (colon == std::string::npos)
             values.push_back(number(text));
         else
@@ -66,9 +62,8 @@ NamedEnd read_end(const LossPoint& point, const std::string& text, const std::st
         throw InputError(Place{option + " " + text, 0, 0}, "it names no level",
                          "write EXPR=LEVEL, such as q=0.9, or end");
     NamedEnd asked{{}, text, true};
-    const std::string quantity = text.substr(0, equals);
-    asked.end.quantity = named_value(point.model(), quantity, {option + ' ' + quantity, 1, 1}).value;
-    asked.end.level = number_of(point.model(), text.substr(equals + 1), option);
+    asked.end.quantity = requested_quantity(point.model(), text.substr(0, equals), option).value;
+    asked.end.level = value_of(point.model(), text.substr(equals + 1), option);
     return asked;
 }
 
@@ -87,6 +82,36 @@ std::vector<std::string> unfinished_trips(const OvershootTrips& trips, const std
             lacks.push_back(fmt::format("the trip at the overshoot {:g} has not come to its end: {}",
                                         trips.point.fold ? trips.of_fold[i].overshoot : trips.of_touch[i].overshoot,
                                         why_not(*unfinished, longer)));
+    return lacks;
+}
+
+std::vector<std::string> unfinished_trips(const std::vector<RampRow>& rows, const std::string& longer) {
+    std::vector<std::string> lacks;
+    for (const RampRow& row : rows)
+        if (!row.ramped.trip.ended)
+            lacks.push_back(fmt::format("the ramp of {:g} has not come to its end: {}", row.rate,
+                                        why_not(row.ramped.trip, longer)));
+    return lacks;
+}
+
+std::vector<std::string> unfinished_trips(const std::vector<double>& amplitudes, const std::vector<TripTime>& trips) {
+    std::vector<std::string> lacks;
+    for (std::size_t i = 0; i < trips.size(); ++i)
+        if (!(trips[i].ended || trips[i].ending == "end-time"))
+            lacks.push_back(
+                fmt::format("the wave of {:g} has not been simulated to its end: {}", amplitudes[i],
+                            why_not(trips[i], "look at whether the parameter has a meaning as far as it swings")));
+    return lacks;
+}
+
+std::vector<std::string> unfinished_trips(const std::vector<double>& levels, const std::vector<NoisyTrips>& all) {
+    std::vector<std::string> lacks;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        for (const auto& [ending, count] : all[i].failures)
+            lacks.push_back(
+                fmt::format("{} of {} motions under the noise {:g} are not counted: they ended by {}; look at whether "
+                            "the parameter has a meaning as far as the noise takes it",
+                            count, all[i].motions, levels[i], ending));
     return lacks;
 }
 

@@ -4,6 +4,7 @@
 #include "driven_oscillator.hpp"
 #include "graze/base/input_error.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -53,10 +54,12 @@ TEST(Yield, GivenDevicesHaveTheirClosedForm) {
     for (int i = 0; i < 50; ++i) // correlated, as from one process
         given.values.push_back({shop.known.omega * (1 + 0.001 * i), shop.known.sigma * (1 - 0.002 * i)});
     given.values.emplace_back(); // a device that cannot be made
-    std::vector<double> told(given.values.size());
     shop.settings.least = 0;
-    const Yield yield = yield_of(System(shop.model), shop.point, shop.force, given, shop.settings,
-                                 [&](std::size_t i, const LocatedSolution& solution) { told[i] = solution.value; });
+    const DeviceExamination examination{"", [](const LocatedSolution& device, const std::function<bool()>&) {
+                                            return fmt::format("{:a}", device.value);
+                                        }};
+    const auto [yield, examined] =
+        examined_yield_of(System(shop.model), shop.point, shop.force, given, shop.settings, examination);
     ASSERT_EQ(yield.found, 50U);
     EXPECT_EQ(yield.failed, 1U);
     EXPECT_EQ(yield.problems.front().first, "the device cannot be made");
@@ -65,8 +68,9 @@ TEST(Yield, GivenDevicesHaveTheirClosedForm) {
         one.omega = given.values[i][0];
         one.sigma = given.values[i][1];
         EXPECT_NEAR(yield.devices[i].value / one.force(), 1, 1e-11);
-        EXPECT_EQ(told[i], yield.devices[i].value);
+        EXPECT_EQ(examined[i], fmt::format("{:a}", yield.devices[i].value));
     }
+    EXPECT_EQ(examined.back(), "");
     EXPECT_NEAR(yield.within.value().value, 50.0 / 51, 1e-15);
     EXPECT_GT(yield.linear_deviation, 0);
     given.values[0].pop_back();

@@ -3,6 +3,7 @@
 #include "design/simulated_devices.hpp"
 #include "design/switches.hpp"
 #include "graze/base/input_error.hpp"
+#include "graze/study/yield_part.hpp"
 
 #include <gtest/gtest.h>
 
@@ -99,6 +100,51 @@ TEST(WaferYield, DependsOnTheSeedAndNotOnThreads) {
         EXPECT_EQ(one.devices[i].trip_time, two.devices[i].trip_time);
     }
     EXPECT_EQ(one.classes, two.classes);
+}
+
+TEST(WaferYield, IsTheSameInParts) {
+    Wafers wafers;
+    wafers.file.spread.bias.wafer = 4; // the etch removes some
+    wafers.settings.wafers = 3;
+    const WaferYield whole = wafers.yield();
+    EXPECT_FALSE(whole.classes.empty());
+    EXPECT_TRUE(whole.overshoot);
+    wafers.settings.elsewhere = [](const AskedDevices& devices, const std::function<bool()>& interrupted,
+                                   const DeviceSink& sink) {
+        const DeviceSolver other = device_solver_of(bytes_of(devices.solver), wafer_examination_of);
+        for (std::size_t last = devices.count; last > 0; last -= std::min<std::size_t>(last, 5)) {
+            const ItemRange range{last - std::min<std::size_t>(last, 5), last};
+            read_devices(devices, range, solved_part(other, part_of(devices, range), interrupted), sink);
+        }
+        return true;
+    };
+    const WaferYield parted = wafers.yield();
+    ASSERT_EQ(parted.devices.size(), whole.devices.size());
+    for (std::size_t i = 0; i < whole.devices.size(); ++i) {
+        EXPECT_EQ(parted.devices[i].outcome, whole.devices[i].outcome);
+        EXPECT_EQ(parted.devices[i].value, whole.devices[i].value);
+        EXPECT_EQ(parted.devices[i].found, whole.devices[i].found);
+        EXPECT_EQ(parted.devices[i].trip_time, whole.devices[i].trip_time);
+    }
+    EXPECT_EQ(parted.classes, whole.classes);
+    EXPECT_EQ(parted.yield.problems, whole.yield.problems);
+    EXPECT_EQ(parted.yield.deviation->value, whole.yield.deviation->value);
+}
+
+TEST(WaferYield, RefusesDevicesThatWereNotExamined) {
+    Wafers wafers;
+    wafers.settings.wafers = 1;
+    for (const std::string& examined : {std::string(), std::string(9, '\x7f')}) {
+        wafers.settings.elsewhere = [&](const AskedDevices& devices, const std::function<bool()>&,
+                                        const DeviceSink& sink) {
+            for (std::size_t i = 0; i < devices.count; ++i) {
+                SolvedDevice solved{{DeviceOutcome::found, 25, 25}, "", examined};
+                sink(i, solved);
+            }
+            return true;
+        };
+        EXPECT_THROW(wafers.yield(), InputError);
+    }
 }
 
 TEST(WaferYield, CountsDevicesThatTheEtchRemoves) {

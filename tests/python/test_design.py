@@ -1,9 +1,11 @@
 """`graze.design`: numbers as the program prints them (docs/design.md is checked against the program), closed forms, what
 is written, and wrong uses."""
 
+import copy
 import json
 import os
 import pathlib
+import pickle
 import re
 
 import pytest
@@ -187,3 +189,15 @@ def test_wrong_types():
         graze.design("mems-switch", progress=3)
 
 
+def test_designs_can_be_copied_and_pickled(quick, tmp_path):
+    for made in (pickle.loads(pickle.dumps(quick)), copy.deepcopy(quick), pickle.loads(pickle.dumps(copy.copy(quick)))):
+        assert dict(made) == dict(quick) and made.tables == quick.tables and made.wants == quick.wants
+        assert (made.report, made.device, made.dimensions) == (quick.report, quick.device, quick.dimensions)
+        assert made.results["approach"].points == quick.results["approach"].points
+        with pytest.raises(graze.OrderError, match="not kept in copies"):
+            made.plot()
+    written = made.save(tmp_path / "copy", pictures=False)
+    assert written == [path.replace("whole", "copy") for path in quick.save(tmp_path / "whole", pictures=False)]
+    for path in written:
+        if not path.endswith(".sqlite"):
+            assert pathlib.Path(path).read_text() == pathlib.Path(path.replace("copy", "whole")).read_text()

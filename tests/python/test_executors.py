@@ -143,19 +143,17 @@ def test_what_is_no_part_is_refused(oscillator):
     executor.submit = lambda function, text, *rest: texts.append((text, *rest)) or Here.submit(executor, function, text, *rest)
     made("basin", oscillator, executor=executor)
     text, part, _ = texts[0]
-    run = _graze.PartedRun(text)
-    assert run.computed(part) == run.computed(part) != b""
+    worker = _graze.PartWorker(text)
+    assert worker.computed(part) == worker.computed(part) != b""
     with pytest.raises(graze.InputError, match="of graze older-"):
-        _graze.PartedRun(text.replace(b'"version":"', b'"version":"older-'))
+        _graze.PartWorker(text.replace(b'"version":"', b'"version":"older-'))
     for wrong in (b"", part[:-1], part + b"x", b"\xff" * 40):
         with pytest.raises(graze.InputError):
-            run.computed(wrong)
+            worker.computed(wrong)
         with pytest.raises(graze.InputError):
-            _graze.PartExchange().give(0, wrong, b"")
-        with pytest.raises(graze.InputError):
-            _graze.PartedRun(wrong)
+            _graze.PartWorker(wrong)
     assert _graze.PartExchange().part(0, 5, 2) == b""  # no run is open
-    assert _graze.PartExchange().give(0, part, b"x") is None
+    assert _graze.PartExchange().give(0, 0, 1, b"x") is None
 
 
 def test_points_that_do_not_belong_to_a_part_fail_the_run(oscillator):
@@ -165,7 +163,7 @@ def test_points_that_do_not_belong_to_a_part_fail_the_run(oscillator):
             future.set_result((0.1, b"graze points 1\n"))
             return future
 
-    with pytest.raises(graze.RunFailed, match="no part of a run"):
+    with pytest.raises(graze.RunFailed, match="no part of a computation"):
         made("basin", oscillator, executor=Wrong())
 
 
@@ -363,7 +361,7 @@ def test_what_is_no_executor_is_refused(oscillator):
                                                       (300, 5.0, 3)])
 def test_parts_take_about_half_a_second_and_end_together(chains, seconds, workers):
     ranges = [(0, chains // 3), (chains // 3, chains)] if chains > 3 else [(0, chains)]
-    run = _executors._OpenRun(0, b"", ranges)
+    run = _executors._OpenWork(0, b"", ranges)
     free = [0.0] * workers  # when each is free
     going, parts = [], []
     while run.ranges:

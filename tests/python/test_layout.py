@@ -1,8 +1,10 @@
 """`graze.layout`: what is drawn, measured and written, wafers of devices, and wrong uses."""
 
+import copy
 import json
 import math
 import pathlib
+import pickle
 import re
 import struct
 
@@ -188,6 +190,9 @@ def test_wafers_of_devices(tmp_path):
     assert [pathlib.Path(path).name for path in written] == ["wafers.csv", "devices.csv", "report.json", "map.svg", "map.png"]
     assert json.loads(pathlib.Path(written[2]).read_text())["seed"] == 3
     assert len(wafers.plot()) == 2 and "yield" in wafers._repr_html_()
+    copied = pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(wafers))))
+    assert (copied.report, copied.devices, dict(copied)) == (wafers.report, wafers.devices, dict(wafers))
+    assert len(copied.plot()) == 2
     with pytest.raises(graze.Interrupted):
         drawing.wafers(1000, progress=lambda text: False)
 
@@ -227,7 +232,7 @@ def test_drawing_of_a_designed_device(tmp_path):
     (dict(design="mems-switch-device", set=3), "dict"),
     (dict(design="mems-switch-device", device={"colour": 3}), "colour"),
     (dict(design="mems-switch-device", from_design="absent"), "absent"),
-    (dict(design="mems-switch-device", from_design=3), "int"),
+    (dict(design="mems-switch-device", from_design=3), "from_design"),
     (dict(design="mems-switch"), "device"),
     (dict(name="x"), "device"),
     (dict(text="name ="), "TOML"),
@@ -246,3 +251,16 @@ def test_wrong_numbers(device, tmp_path):
             wrong()
     with pytest.raises(KeyError):
         device["nothing"]
+
+
+def test_layouts_can_be_copied_and_pickled(device):
+    changed = graze.layout("mems-switch-device", set={"gap": 14})
+    for layout in (device, changed):
+        for made in (pickle.loads(pickle.dumps(layout)), copy.deepcopy(layout), copy.copy(layout)):
+            assert dict(made) == dict(layout) and made.rules == layout.rules and made.gds() == layout.gds()
+    assert changed["gap"] != device["gap"]
+
+
+def test_a_layout_is_a_mapping_of_its_measures(device):
+    assert len(device) == len(set(device)) and "gap" in device and device.get("nothing") is None
+    assert dict(device)["gap"] == device["gap"]

@@ -17,7 +17,7 @@ from matplotlib import pyplot
 from matplotlib.collections import PathCollection, PolyCollection
 
 import graze
-from graze import _graze, _plot
+from graze import _graze, _looks, _multipliers, _plot
 
 PROGRAM = pathlib.Path(_graze.__file__).parents[2] / "bin" / "graze"
 PER_INCH = 72
@@ -309,7 +309,7 @@ def test_multipliers(branch):
     assert as_set(drawn) == {(one.real, one.imag) for one in told}
     circle = lines_of(axes)[0].get_xydata()
     assert numpy.hypot(*circle.T) == pytest.approx(numpy.ones(len(circle)))
-    far = _plot.draw_multipliers([0.5, -140.0, 3j, float("nan")], "far")
+    far = _multipliers.draw_multipliers([0.5, -140.0, 3j, float("nan")], "far")
     assert [text.get_text() for text in far.texts] == ["−140"]
     shown = numpy.concatenate([line.get_xydata() for line in drawn_symbols(far)])
     assert numpy.hypot(*shown.T).max() == pytest.approx(3)
@@ -439,9 +439,9 @@ def test_names_and_units_are_written_as_symbols(shaker):
     assert axes.get_xlabel() == "velocity jump at one contact (mm/s)"
     legend = [text.get_text() for text in axes.get_legend().get_texts()]
     assert legend[0].startswith(r"$\mathit{f}$ = 6 Hz: slope")
-    assert _plot._markup(_graze.rich_unit("m/s^2")) == r"m/s$^{\mathrm{2}}$"
-    assert _plot._markup(_graze.rich_name("x_nd")) == r"$\mathit{x}_{\mathrm{nd}}$"
-    assert _plot._markup([("50 $", "upright")]) == r"50 \$"
+    assert _looks.markup(_graze.rich_unit("m/s^2")) == r"m/s$^{\mathrm{2}}$"
+    assert _looks.markup(_graze.rich_name("x_nd")) == r"$\mathit{x}_{\mathrm{nd}}$"
+    assert _looks.markup([("50 $", "upright")]) == r"50 \$"
 
 
 def test_a_label_never_knows_a_power_that_the_tics_have(oscillator):
@@ -501,3 +501,15 @@ def test_dark_styles_and_style_sheets(branch):
     for style in ("ggplot", "classic", "seaborn-v0_8-paper"):
         with pyplot.style.context(style):
             require_apart(branch.plot(y="period"))
+
+
+def test_panels_are_made_once(branch, monkeypatch):
+    calls, panels = [], _graze.Figure.panels
+    monkeypatch.setattr(_graze.Figure, "panels", lambda self: calls.append(1) or panels(self))
+    branch.plot(y=["max_x", "period"])
+    assert len(calls) == 1
+    figure = branch.figure(y="period")
+    assert len(calls) == 2
+    figure.plot()
+    figure.plot(axes=pyplot.figure().add_subplot())
+    assert len(calls) == 2

@@ -1,7 +1,9 @@
 """Measured records: closed forms, what is read and written, estimates with known truth, and wrong uses."""
 
+import copy
 import math
 import os
+import pickle
 import signal
 import threading
 import warnings
@@ -234,6 +236,10 @@ def test_decrement_of_a_damped_sine():
     assert math.sqrt(found.covariance[1, 1]) == pytest.approx(damping.error, rel=0.5)
     assert found.table["name"][:2] == list(found)[:2]
     assert len(found.plot()) == 2
+    copied = pickle.loads(pickle.dumps(found))
+    assert list(copied) == list(found) and copied.table == found.table
+    with pytest.raises(graze.OrderError):
+        copied.plot()
 
 
 def test_impedance_of_a_coil():
@@ -295,7 +301,7 @@ def test_interruption():
 
 @pytest.mark.parametrize("wrong, words", [
     (lambda: graze.read_record("absent.csv"), "absent"),
-    (lambda: graze.read_record(3), "named by 3"),
+    (lambda: graze.read_record(3), "3 is no path"),
     (lambda: graze.read_record(""), "no name"),
     (lambda: graze.read_record(os.curdir), ""),
     (lambda: graze.read_record("absent.csv", skip=-1), "skip"),
@@ -377,3 +383,20 @@ def test_arrays_become_a_fitted_model():
         measured.fit(guess, unknowns=["nothing"], readings=["x"])
     with pytest.raises(graze.InputError, match="identify"):
         measured.fit(guess, what="decrement")
+
+
+def test_records_can_be_copied_and_pickled(tmp_path):
+    path = tmp_path / "gaps.csv"
+    path.write_text("t [s], V [V]\n0, 1\n0.1, nan\n0.2, 3\n0.3")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        record = graze.read_record(path)
+        again = pickle.loads(pickle.dumps(record))
+    path.unlink()
+    assert again.samples == record.samples and repr(again) == repr(record)
+    assert again.remarks == record.remarks != []
+    assert again.processed(from_=0.1).t.tolist() == [0.2]
+    several = graze.MeasuredRecords([sines(), sines()])
+    for made in (pickle.loads(pickle.dumps(several)), copy.deepcopy(several), copy.copy(several)):
+        assert [one.samples for one in made] == [one.samples for one in several]
+        assert made.periods("V") == several.periods("V")

@@ -315,7 +315,7 @@ def test_results_outlive_what_made_them(oscillator, tmp_path):
     points = graze.sweep(oscillator, vary={"omega": [2.7, 2.75]}, cycles=80).points["omega"]
     assert points.tolist() == [2.7, 2.75]
     run = graze.sweep(oscillator, vary={"omega": [2.7, 2.75]}, cycles=80)
-    folder = run._store.folder
+    folder = run._store.folder.path
     run.save(tmp_path / "kept.sqlite")
     with pytest.raises(graze.FileError):
         run.save(tmp_path / "kept.sqlite")
@@ -371,7 +371,7 @@ def test_runs_of_different_files_are_used_together(branch, impacting, oscillator
 
 
 def test_many_runs_of_one_branch_are_right(branch, monkeypatch):
-    monkeypatch.setattr(graze._runs, "_MOST_RUNS", 4)
+    monkeypatch.setattr(graze._calls, "MOST_RUNS", 4)
     runs = [branch["GR1"].switch(steps=1) for _ in range(5)]
     assert all(same_results(one, runs[0]) for one in runs)
     assert runs[-1]._store is not branch._store  # one file has not too many runs
@@ -427,7 +427,7 @@ import os, sys, graze
 model = graze.Model.shipped("impact-oscillator")
 free = graze.orbit(model, set={"omega": 4}, from_={"x": -0.07}).follow(omega=(2.2, 4.5), direction="down")
 beyond = free["GR1"].switch()
-print(free._store.folder)
+print(free._store.folder.path)
 """
 
 
@@ -438,11 +438,11 @@ if child == 0:
     points = beyond.points                # it reads what the parent has computed
     again = free["GR1"].switch()          # and goes on by itself
     assert again.points == points
-    print(free._store.folder)
-    sys.exit(0 if free._store.path.startswith(free._store.folder) else 3)
+    print(free._store.folder.path)
+    sys.exit(0 if free._store.path.startswith(free._store.folder.path) else 3)
 status = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
 assert status == 0, status
-assert os.path.exists(free._store.folder)
+assert os.path.exists(free._store.folder.path)
 assert free["GR1"].switch().points == beyond.points
 """)
     assert done.returncode == 0, done.stderr
@@ -535,9 +535,80 @@ def test_signatures_and_help_list_all_keys(function, kind):
     assert pickle.loads(pickle.dumps(function)) is function
 
 
+def test_arrays_of_points_cannot_be_changed(branch):
+    with pytest.raises(ValueError, match="read-only"):
+        branch["GR1"].starts[0, 0] = 7
+    with pytest.raises(ValueError, match="read-only"):
+        branch["GR1"].multipliers[0] = 7
+
+
 def test_methods_of_points_list_their_keys(branch):
     signature = inspect.signature(branch["GR1"].follow)
     assert "self" not in signature.parameters and signature.parameters["steps"].default == 1000
     assert "cycles" not in signature.parameters  # of no use where a run starts from an orbit
     assert "steps: " in branch["GR1"].follow.__doc__
     assert graze.Point.follow.__name__ == "follow"
+
+
+def test_one_orbit_says_what_it_lacks(oscillator, branch):
+    rest = graze.orbit(oscillator, set={"omega": 4}, from_={"x": -0.07})
+    for one in (rest, rest.point):
+        assert not hasattr(one, "parameter") and one.parameters["omega"] == 4
+        with pytest.raises(AttributeError, match="no parameter; its dict `parameters`"):
+            one.parameter
+    assert branch.parameter == "omega" and branch[0].parameter == 4
+    with pytest.raises(AttributeError, match="nothing.*it has .*period"):
+        rest.nothing
+    with pytest.raises(graze.RunFailed) as told:
+        graze.orbit(oscillator, set={"omega": 4}, from_={"x": -0.07}, cycles=1)
+    none = told.value.run
+    assert not hasattr(none, "period") and len(none) == 0
+    with pytest.raises(graze.InputError, match=f"'{none.name}' has no orbit: ") as told:
+        none.point
+    assert told.value.remedy
+
+
+def counted_calls(monkeypatch, of, name):
+    """A list that gets an item for each call of a function of the compiled part."""
+    calls, function = [], getattr(of, name)
+
+    def counting(*arguments, **keys):
+        calls.append(name)
+        return function(*arguments, **keys)
+
+    monkeypatch.setattr(of, name, counting if inspect.ismethoddescriptor(vars(of)[name]) else staticmethod(counting))
+    return calls
+
+
+def test_what_does_not_change_is_read_once(branch, monkeypatch, tmp_path):
+    branch.save(tmp_path / "branch.sqlite")
+    study = graze.read_results(tmp_path / "branch.sqlite")
+    models = counted_calls(monkeypatch, graze._graze.Model, "parsed")
+    runs = counted_calls(monkeypatch, graze._graze.ResultFile, "run")
+    orbits = counted_calls(monkeypatch, graze._graze.ResultFile, "orbit")
+    read = study[branch.name]
+    assert len(runs) == 1
+    assert [repr(one) for one in read.orbits()] == [repr(one) for one in branch.orbits()]
+    assert read.units == branch.units and repr(read) == repr(branch)
+    assert len(models) <= 1 and len(runs) <= 3
+    rest = study[next(name for name in study if name != branch.name)]
+    assert rest.kind == "orbit" and rest.period > 0
+    orbits.clear()
+    assert rest.point is rest.point and rest.multipliers is rest.point.multipliers and rest.stable
+    assert orbits == []
+
+
+def test_a_run_in_a_file_that_grows_is_read_anew(oscillator, tmp_path):
+    text = """name = "grows"
+model = "impact-oscillator"
+[runs.a]
+kind = "sweep"
+cycles = 60
+vary = { omega = { from = 2.7, to = 2.8, points = 400 } }
+"""
+    with pytest.raises(graze.Interrupted):
+        graze.run_study(text, output=tmp_path, progress=lambda state: state["done"] < 5)
+    run = graze.read_results(tmp_path)["a"]
+    assert run.status == "unfinished"
+    graze.run_study(text, output=tmp_path)
+    assert run.status == "complete" and len(run.points) == 400

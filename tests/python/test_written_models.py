@@ -495,7 +495,7 @@ def test_all_mistakes_are_told_at_once():
 def test_examples_of_docstrings_run():
     names = {name: getattr(graze, name) for name in dir(graze) if not name.startswith("_")}
     finder, runner = doctest.DocTestFinder(), doctest.DocTestRunner()
-    for module in ("_written_model", "_model", "_expressions"):
+    for module in ("_model_parts", "_model", "_model_values", "_expressions"):
         for test in finder.find(sys.modules[f"graze.{module}"], globs=names):
             runner.run(test)
     assert runner.tries > 15 and runner.failures == 0

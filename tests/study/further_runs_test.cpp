@@ -55,6 +55,19 @@ TEST_F(FurtherRuns, ACopyWhoseNameIsTakenIsNamedAnew) {
     EXPECT_EQ(other.point_count("chain"), file.point_count("chain"));
 }
 
+TEST_F(FurtherRuns, ACopyWhoseNameIsTakenButForItsCaseIsNamedAnew) {
+    const ResultFile file(original, ResultFile::Access::read);
+    ResultFile other(path("other.sqlite"), ResultFile::Access::write);
+    const Study taken = parse_study("name = \"t\"\nmodel = \"impact-oscillator\"\n[runs.Orbit]\nkind = \"orbit\"\n"
+                                    "set = { omega = 4 }\nfrom = { x = -0.06 }\n",
+                                    "t.toml");
+    expect_complete(run_study(taken, other, {}));
+    EXPECT_THAT(copy_runs(file, other, {"chain"}), ElementsAre(Pair("chain", "chain"), Pair("orbit", "orbit_2")));
+    EXPECT_EQ(stored_study(other).find_run("chain")->start->run, "orbit_2");
+    for (const RunReport& report : run_study(stored_study(other), other, {}))
+        EXPECT_EQ(report.computed, 0U) << report.name;
+}
+
 TEST_F(FurtherRuns, GoOnFromRunsOfAFile) {
     ResultFile file(original, ResultFile::Access::write);
     const Study earlier = stored_study(file);

@@ -107,7 +107,7 @@ TEST_F(RunPartTest, PointsThatCarryNoStateAreChainsOfTheirOwn) {
     EXPECT_EQ(points_of(carried), 36u);
     EXPECT_EQ(chains_of(alone), 24u);
     EXPECT_EQ(points_of(alone), 24u);
-    EXPECT_EQ(alone.motion().chains(alone.kind), 12); // of one direction
+    EXPECT_EQ(alone.motion().rows(alone.kind), 2);
     ResultFile file(path_, ResultFile::Access::write);
     run_study(study_, file, {.only = {"alone"}});
     // They are numbered as if states were carried along.
@@ -168,22 +168,29 @@ TEST_F(RunPartTest, RefusesWhatIsNoPart) {
     EXPECT_EQ(refusal(whole, bytes), "");
     EXPECT_EQ(points, 36u);
     for (std::size_t size = 0; size < bytes.size(); size += 1 + size / 7)
-        EXPECT_THAT(refusal(whole, bytes.substr(0, size)), HasSubstr("no part of a run")) << size;
-    EXPECT_THAT(refusal({{0, 2}, {}}, bytes), HasSubstr("no part of a run"));
-    EXPECT_THAT(refusal({{0, std::size_t{1} << 62}, {}}, bytes), HasSubstr("no part of a run"));
+        EXPECT_THAT(refusal(whole, bytes.substr(0, size)), HasSubstr("no part of a computation")) << size;
+    EXPECT_THAT(refusal({{0, 2}, {}}, bytes), HasSubstr("no part of a computation"));
+    EXPECT_THAT(refusal({{0, std::size_t{1} << 62}, {}}, bytes), HasSubstr("no part of a computation"));
     EXPECT_THAT(refusal({{0, 3}, std::vector<ChainProgress>(3, {1, false, {}, 0})}, bytes),
-                HasSubstr("no part of a run"));
+                HasSubstr("no part of a computation"));
+    EXPECT_THAT(refusal({{0, 3}, std::vector<ChainProgress>(2)}, bytes), HasSubstr("no part of a computation"));
+    EXPECT_THAT(refusal({{3, 0}, {}}, bytes), HasSubstr("no part of a computation"));
     EXPECT_EQ(points, 36u); // nothing of what is refused is given
 
-    EXPECT_THAT(testing::message_of([] { part_of("graze-part-2\n"); }), HasSubstr("no part of a run"));
+    EXPECT_THAT(testing::message_of([] { part_of("graze-part-2\n"); }), HasSubstr("no part of a computation"));
     const std::string part = bytes_of({{1, 3}, std::vector<ChainProgress>(2)});
     EXPECT_EQ(part_of(part).known.size(), 2u);
-    EXPECT_THAT(testing::message_of([&] { part_of(part + "x"); }), HasSubstr("no part of a run"));
+    EXPECT_THAT(testing::message_of([&] { part_of(part + "x"); }), HasSubstr("no part of a computation"));
     EXPECT_THAT(testing::message_of([&] { computed_points(run, {{2, 4}, {}}, {}); }), HasSubstr("chains of a part"));
     EXPECT_THAT(testing::message_of([&] {
                     computed_points(run, {{0, 1}, {{1, false, {}, 0}}}, {});
                 }),
-                HasSubstr("no part of a run"));
+                HasSubstr("no part of a computation"));
+
+    EXPECT_THAT(testing::message_of([&] {
+                    computed_points(run, {{0, 3}, std::vector<ChainProgress>(2)}, {});
+                }),
+                HasSubstr("no part of a computation"));
 
     std::string other = parts.texts.front();
     const std::string before = "\"version\":\"";

@@ -8,11 +8,13 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <string_view>
 
 namespace graze {
 
 /// What an acquisition is doing; `walking` is the repetition of earlier levels without records.
 enum class AcquisitionStage { walking, setting, settling, recording };
+std::string_view name_of(AcquisitionStage stage);
 
 /// State of a running acquisition, passed to AcquisitionOptions::progress.
 struct AcquisitionProgress {
@@ -56,5 +58,16 @@ struct AcquisitionReport {
 ///         output could not be made safe nothing is thrown: `detail` then tells it
 AcquisitionReport acquire(const Experiment& experiment, InstrumentLine& generator, SampleDevice& device,
                           RecordFolder& folder, const AcquisitionOptions& options = {});
+
+/// Whether the output of an experiment's generator is safe, as the generator tells itself.
+struct SafeOutput {
+    bool safe = false;   ///< it has the safe amplitude
+    bool off = false;    ///< if not: it is switched off
+    std::string problem; ///< if not: why
+};
+
+/// Opens the line to the generator of an experiment that nobody controls any more, and brings its output to the safe
+/// amplitude. Cannot be interrupted. What fails is told in the result.
+SafeOutput make_safe(const Experiment& experiment);
 
 } // namespace graze

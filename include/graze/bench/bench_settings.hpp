@@ -42,6 +42,10 @@ struct BenchSettings {
     void validate() const;
 };
 
+/// Texts of the channels of a bench where none are chosen, for bench_channel: the quantity `voltage`, and all states
+/// that are not cyclic.
+std::vector<std::string> usual_channels(const Model& model);
+
 /// Parses a channel such as "V=V0*sin(theta):V" or "q": a name, an expression of the model, a unit.
 /// @param asked option that gives the text, for messages. @throws InputError for an invalid text
 BenchChannel bench_channel(const Model& model, const std::string& text, const std::string& asked);

@@ -26,6 +26,17 @@ struct Tolerance {
     double deviation() const; ///< standard deviation
 };
 
+struct AskedDevices;
+struct SolvedDevice;
+/// Receives what has been found of a device; may move from it.
+using DeviceSink = std::function<void(std::size_t device, SolvedDevice& solved)>;
+/// Solves for devices in some other way than by threads of this process: see device_solver.hpp.
+/// @param interrupted asked now and then; true: it has to end soon
+/// @param sink receives each device once; called by one thread at a time
+/// @return false when it was interrupted
+using DevicesElsewhere =
+    std::function<bool(const AskedDevices& devices, const std::function<bool()>& interrupted, const DeviceSink& sink)>;
+
 struct YieldSettings {
     std::vector<Tolerance> tolerances;
     std::size_t devices = 10'000;          ///< number of devices; raise it for narrower confidence intervals
@@ -33,7 +44,8 @@ struct YieldSettings {
     std::optional<double> least, greatest; ///< specification limits of the value; empty: no limit
     double confidence = 0.95;              ///< confidence level of all intervals
     std::vector<double> quantiles{0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99};
-    int jobs = 1; ///< number of threads; results do not depend on it
+    int jobs = 1;               ///< number of threads; results do not depend on it
+    DevicesElsewhere elsewhere; ///< solves for the devices in place of threads; results do not depend on it
     LocatedValueOptions solver;
     std::function<bool()> interrupted; ///< returns true to stop
     /// Called with the number of finished devices.

@@ -61,6 +61,7 @@ struct DesignReport {
 /// Options of `locate_trip` and `report_of`.
 struct DesignReportOptions {
     int jobs = 1;
+    DevicesElsewhere elsewhere;                            ///< solves for the devices of yields in place of threads
     std::function<bool()> interrupted;                     ///< returning true interrupts
     std::function<void(const std::string& what)> progress; ///< called with the present task
 };

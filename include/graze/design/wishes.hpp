@@ -15,6 +15,7 @@ namespace graze {
 struct WishesOptions {
     std::size_t evaluations = 2000; ///< largest number of devices that are evaluated
     int jobs = 1;                   ///< threads for the devices of a yield; the results do not depend on their number
+    DevicesElsewhere elsewhere;     ///< solves for these devices in place of threads
     std::function<bool()> interrupted;
     std::function<void(std::size_t devices)> progress; ///< called with the number of evaluated devices
 };

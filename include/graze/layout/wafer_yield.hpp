@@ -1,6 +1,6 @@
 #pragma once
 
-#include "graze/branch/yield.hpp"
+#include "graze/branch/device_solver.hpp"
 #include "graze/design/trip_point.hpp"
 #include "graze/layout/layout.hpp"
 #include "graze/layout/lumped_model.hpp"
@@ -20,8 +20,9 @@ namespace graze {
 struct WaferYieldSettings {
     std::size_t wafers = 25;
     std::uint64_t seed = 1;
-    int jobs = 1;                                      ///< threads; the results do not depend on their number
-    std::function<bool()> interrupted;                 ///< returning true interrupts
+    int jobs = 1;                      ///< threads; the results do not depend on their number
+    DevicesElsewhere elsewhere;        ///< solves for the devices in place of threads, to the same results
+    std::function<bool()> interrupted; ///< returning true interrupts
     std::function<void(std::size_t devices)> progress; ///< called with the number of devices done
 };
 
@@ -68,5 +69,9 @@ Design design_of_device(const Design& design, const DeviceFile& file);
 /// @throws InputError when no number varies, or the trip value is not determined by the device's numbers
 WaferYield wafer_yield_of(const Design& design, const DeviceFile& file, const Layout& wafer, const TripPoint& trip,
                           const WaferYieldSettings& settings = {});
+
+/// How devices of a wafer are examined, in any process: for device_solver_of.
+DeviceExamination wafer_examination_of(const System& system, const SpecialPoint& point, ParameterId control,
+                                       const std::string& request);
 
 } // namespace graze

@@ -22,4 +22,9 @@ NamedValue named_value(const Model& model, const std::string& text, const Place&
 /// @throws InputError when the text is not an expression, or its value is not finite
 double value_of_text(const Model& model, std::string_view text, const Place& place);
 
+// The same for texts that are given as values of an option or argument, which messages name before the text.
+
+NamedValue requested_quantity(const Model& model, const std::string& text, const std::string& option);
+double value_of(const Model& model, std::string_view text, const std::string& option);
+
 } // namespace graze

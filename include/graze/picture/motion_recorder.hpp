@@ -23,7 +23,13 @@ struct MotionPanelChoice {
     std::vector<bool> marked;                                   ///< for each event: its contacts are marked
     std::size_t sections = 0;                                   ///< the first `sections` probes are marked
     bool chosen = false; ///< the user chose the histories: constant ones are drawn too
+
+    /// Index of the column of a quantity, which is added where there is none of its name.
+    std::size_t column(NamedValue quantity);
 };
+
+/// The contacts that a picture marks where nothing is chosen: those with barriers that the motion meets.
+std::vector<bool> usual_marks(const Model& model);
 
 /// Observer that records what a picture of a trajectory needs: dense points on every arc, the points before and after
 /// each contact, and passages of sections.

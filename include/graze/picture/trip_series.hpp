@@ -27,8 +27,6 @@ Figure trip_figure(const std::vector<OvershootTrips>& all);
 
 /// Delays of the trips of ramps over their rates. @param end what the trips go to, in words
 Figure ramp_figure(const LossPoint& point, const std::vector<RampRow>& rows, const std::string& end);
-/// The unit of such a rate; empty if neither the parameter nor the time has a unit.
-std::string unit_of_rate(const LossPoint& point);
 /// Times of trips over the amplitudes of waves. The distance of the point from the origin is marked.
 /// @param trips for each amplitude, or for the first ones
 Figure wave_figure(const LossPoint& point, const TripOrigin& origin, const std::vector<double>& amplitudes,

@@ -3,6 +3,7 @@
 #include "graze/base/borrowed.hpp"
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -70,10 +71,13 @@ public:
     StoredSamples(RecordHeader header, Samples samples, std::size_t part = 65536);
     const RecordHeader& header() const override { return header_; }
     bool read(Samples& samples) override;
+    /// The same record from its beginning. It shares the samples, so that several threads may read a record at once.
+    std::unique_ptr<StoredSamples> again() const;
 
 private:
+    StoredSamples(RecordHeader header, std::shared_ptr<const Samples> samples, std::size_t part);
     RecordHeader header_;
-    Samples samples_;
+    std::shared_ptr<const Samples> samples_;
     std::size_t part_, next_ = 0;
 };
 

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -136,7 +137,8 @@ public:
     EstimateRecords estimates(const std::string& run) const;
     /// Commits all points that have been added.
     void flush();
-    /// Writes all that is there to another file, which must not exist. @throws InputError when it cannot be written
+    /// Writes all that is there to another file, which must not exist. @throws InputError when it cannot be written, of
+    /// which nothing is left then, and when this file is open for reading only
     void copy_to(const std::string& path);
     /// Marks a run as complete.
     void complete_run(const std::string& run);
@@ -153,8 +155,12 @@ public:
     std::size_t point_count(const std::string& run) const;
     /// The last point of each chain (number / chain_length) that has points, without samples.
     std::vector<PointRecord> last_points(const std::string& run, std::size_t chain_length) const;
+    /// The numbers of the points that a run has, in order, without those in a mode that it does not know.
+    std::vector<std::size_t> point_numbers(const std::string& run) const;
     /// One point with its samples.
     std::optional<PointRecord> point(const std::string& run, std::size_t number) const;
+    /// Gives all points of a run with their samples to a function, one by one in the order of their numbers.
+    void each_point(const std::string& run, const std::function<void(const PointRecord& point)>& use) const;
     /// The point of a run whose coordinate is nearest to a value, among points of one direction or of all.
     std::optional<PointRecord> nearest_point(const std::string& run, const std::string& coordinate, double value,
                                              std::optional<std::size_t> direction) const;

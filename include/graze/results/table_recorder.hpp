@@ -57,6 +57,11 @@ struct TableRequest {
     std::vector<std::string> directions;        ///< derivatives: with respect to these states and parameters
 };
 
+/// Refuses a table of samples that could not hold its rows, TableRequest::every apart.
+/// @param duration of the motion; none: it is not known, and nothing is refused
+/// @param asked the option or argument that gives the time between rows, for the message. @throws InputError
+void require_room_for_samples(const TableRequest& request, std::optional<double> duration, const char* asked);
+
 std::unique_ptr<TableRecorder> make_table_recorder(const Simulation& simulation, const TableRequest& request);
 
 } // namespace graze

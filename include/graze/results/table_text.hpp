@@ -20,7 +20,11 @@ std::string csv_text(const Table& table);
 
 /// Writes a table as one JSON object: members of a heading, then columns, units and rows. Missing numbers are null.
 void write_json(std::ostream& out, const Table& table, int digits, const JsonObject& heading);
-/// The rows as objects whose members are named as the columns; missing numbers are left out.
-std::vector<JsonObject> json_rows(const Table& table);
+/// Adds a cell to an object; a missing number is null.
+void add_cell(JsonObject& object, const std::string& name, const Table& table, std::size_t row, std::size_t column);
+/// What becomes of missing numbers.
+enum class MissingCells { left_out, null };
+/// The rows as objects whose members are named as the columns.
+std::vector<JsonObject> json_rows(const Table& table, MissingCells missing = MissingCells::left_out);
 
 } // namespace graze

@@ -5,7 +5,6 @@
 #include "graze/trip/noisy_trip.hpp"
 #include "graze/trip/overshoot_trip.hpp"
 
-#include <string>
 #include <vector>
 
 namespace graze {
@@ -16,8 +15,8 @@ namespace graze {
 Table trip_table(const OvershootTrips& trips);
 /// The trips of two points side by side, with overshoots of the same size.
 Table trip_table(const OvershootTrips& one, const OvershootTrips& other);
-/// A row for each rate of a ramp. @param rate_unit see unit_of_rate
-Table ramp_table(const LossPoint& point, const std::vector<RampRow>& rows, const std::string& rate_unit);
+/// A row for each rate of a ramp.
+Table ramp_table(const LossPoint& point, const std::vector<RampRow>& rows);
 /// A row for each amplitude of a wave. @param trips for each amplitude, or for the first ones
 Table wave_table(const LossPoint& point, const std::vector<double>& amplitudes, const std::vector<TripTime>& trips);
 /// A row for each level of noise. @param all for each level, or for the first ones

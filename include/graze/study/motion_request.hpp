@@ -52,10 +52,10 @@ struct MotionRequest : VariedValues {
     SimulationOptions simulation;
     std::vector<Sampling> samplings;
 
-    /// How many points there are, and how many of them begin at an initial state: a sweep carries states along its
-    /// first axis. Numbers too large to be counted are possible.
+    /// How many points there are, and how many rows they make: sweeps have a row for each combination of the values of
+    /// the axes after the first. Numbers too large to be counted are possible.
     double points() const;
-    double chains(RunKind kind) const;
+    double rows(RunKind kind) const;
 };
 
 } // namespace graze

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "graze/study/item_range.hpp"
 #include "graze/study/runner.hpp"
 
 #include <cstddef>
@@ -11,12 +12,6 @@
 #include <vector>
 
 namespace graze {
-
-/// Chains of a run that follow one another: from `first` on, before `last`.
-struct ChainRange {
-    std::size_t first = 0, last = 0;
-    std::size_t size() const { return last - first; }
-};
 
 /// Receives a point of a run by its number; may move from the result.
 using PointSink = std::function<void(std::size_t point, PointResult& result)>;
@@ -45,7 +40,7 @@ public:
     /// @param known what of each of these chains is there; empty: nothing
     /// @param sink receives the points, in order within each chain; called by one thread at a time
     /// @return false if it was stopped
-    bool compute(ChainRange chains, std::span<const ChainProgress> known, const ExecutionOptions& options,
+    bool compute(ItemRange chains, std::span<const ChainProgress> known, const ExecutionOptions& options,
                  const PointSink& sink) const;
 
 private:
@@ -55,7 +50,7 @@ private:
 
 /// What is to be computed by somebody else, in bytes: some chains of a run, and what of each is there.
 struct RunPart {
-    ChainRange chains;
+    ItemRange chains;
     std::vector<ChainProgress> known{}; ///< empty: nothing is there
 };
 std::string bytes_of(const RunPart& part);

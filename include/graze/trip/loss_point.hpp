@@ -53,4 +53,7 @@ struct LossPoint {
 LossPoint loss_point(const System& system, const SpecialPoint& point, const std::vector<ParameterId>& candidates,
                      std::string_view orbit = "the orbit");
 
+/// The unit of the rate at which its parameter changes; empty if neither the parameter nor the time has a unit.
+std::string unit_of_rate(const LossPoint& point);
+
 } // namespace graze

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "graze/model/model.hpp"
+#include "graze/trip/disturbed_trip.hpp"
+#include "graze/trip/noisy_trip.hpp"
 #include "graze/trip/overshoot_trip.hpp"
 
 #include <string>
@@ -24,5 +26,10 @@ std::string why_not(const TripTime& trip, const std::string& longer);
 
 /// Messages about trips that have not come to their end. @param longer the remedy where more cycles may help
 std::vector<std::string> unfinished_trips(const OvershootTrips& trips, const std::string& longer);
+std::vector<std::string> unfinished_trips(const std::vector<RampRow>& rows, const std::string& longer);
+/// The same for waves, which may well pass without a trip. @param trips for each amplitude, or for the first ones
+std::vector<std::string> unfinished_trips(const std::vector<double>& amplitudes, const std::vector<TripTime>& trips);
+/// The same for motions under noise that are not counted. @param all for each level, or for the first ones
+std::vector<std::string> unfinished_trips(const std::vector<double>& levels, const std::vector<NoisyTrips>& all);
 
 } // namespace graze
