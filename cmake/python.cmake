@@ -22,6 +22,7 @@ target_link_libraries(graze_python PRIVATE graze_instrument graze_options ${GRAZ
 target_compile_options(graze_python PRIVATE ${GRAZE_COMPILED_FAST})
 # Calls within the module go straight to their functions, as in the program: a tenth of the time of sweeps.
 target_link_options(graze_python PRIVATE -Wl,-Bsymbolic-functions)
+compile_together(graze_python 9 ${python_bindings})
 target_compile_definitions(graze_python PRIVATE GRAZE_VERSION="${PROJECT_VERSION}")
 
 file(GLOB python_sources CONFIGURE_DEPENDS python/graze/*.py python/graze/*.pyi python/graze/py.typed)

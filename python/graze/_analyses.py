@@ -13,7 +13,7 @@ from ._certificate import Certificate, counted
 from ._chatter import Chatter
 from ._errors import InputError, Interrupted
 from ._grazing import Grazing
-from ._progress import Progress, attended
+from ._progress import Progress, attended, interruptible
 from ._table import Table
 from ._tolerance import Tolerance, interval_text, tolerance_texts
 from ._trips import AskedTrips, Trips, check_together
@@ -40,6 +40,7 @@ class PointAnalyses:
         """The results by a connection of their own, so that others can read them while something is computed."""
         return _graze.ResultFile(self._run._store.path, write=False)
 
+    @interruptible()
     def grazing(self, *, parameter: Optional[str] = None, verify: bool = False) -> Grazing:
         """Whether an attractor survives this grazing or is lost, and how contacts grow beyond it.
 
@@ -56,6 +57,7 @@ class PointAnalyses:
                 raise Interrupted() from None
         return Grazing(self._named(), made)
 
+    @interruptible()
     def trip(self, *, overshoot: Any = None, parameter: Optional[str] = None, beside: Optional[PointAnalyses] = None,
              disturbance: Optional[Mapping[str, Any]] = None, until: Any = None, greatest_speed: Optional[float] = None,
              cycles: Optional[int] = None, ramp: Any = None, wave: Any = None, wave_period: Optional[float] = None,
@@ -100,6 +102,7 @@ class PointAnalyses:
                 work = asked.beyond(overshoot, beside, disturbance)
             return asked.computed(self, work, progress)
 
+    @interruptible()
     def tolerance(self, *, parameter: Optional[str] = None, vary: Optional[Mapping[str, Any]] = None, within: Any = None,
                   devices: int = 10_000, seed: int = 1, threads: Optional[int] = None, executor: Any = None,
                   progress: Progress = None) -> Tolerance:
@@ -138,6 +141,7 @@ class PointAnalyses:
                                       parts=parts)
         return Tolerance(core, seed)
 
+    @interruptible()
     def chatter(self, *, parameter: Optional[str] = None, rungs: int = 8, progress: Progress = None) -> Chatter:
         """The ladder of grazings that begins at this one, and the onset of chatter to which it leads, from the motion
         and from the grazings alone. `ladder` computes the same grazings as a run, with their orbits.
@@ -154,6 +158,7 @@ class PointAnalyses:
                 core.climb(self._own_file(), told)
         return Chatter(core.object())
 
+    @interruptible()
     def motion(self, samples: int = 500, *, quantities: Any = ()) -> Table:
         """The motion along one whole period, segment by segment, with both sides of every jump.
 
@@ -169,12 +174,11 @@ class PointAnalyses:
             (columns, arrays, units), problems = _graze.orbit_motion(self._own_file(), self._named(),
                                                                      names, count)
         for problem in problems:
-            warnings.warn(problem, RuntimeWarning, stacklevel=2)
+            warnings.warn(problem, RuntimeWarning, stacklevel=4)
         order = [*range(3, len(columns)), 0, 1, 2]
         return counted(*([items[one] for one in order] for items in (columns, arrays, units)))
 
     def certificate(self) -> Certificate:
         """What certifies that the model would follow this orbit, and how close other events come."""
-        store = self._run._store
-        with called("certificate()"), store._reading:
-            return Certificate(_graze.certificate(store.file, self._named()))
+        with called("certificate()"), self._run._store.reading() as file:
+            return Certificate(_graze.certificate(file, self._named()))

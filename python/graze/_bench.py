@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any, Callable, Dict, List, Optional, Tuple, Union
 
 from . import _arguments as checked, _graze
+from ._attributes import Fixed
 from ._errors import InputError, InstrumentError, Interrupted
 from ._model import Model, load
 from ._output import OwnFolder
@@ -17,7 +18,7 @@ _CHANNEL_NUMBERS = ("noise", "bias", "drift", "range")
 
 def _channels(channels: Any) -> List[str]:
     if isinstance(channels, str):
-        return [channels]
+        return [checked.text(channels, "channels")]
     if not isinstance(channels, Mapping):
         try:
             return [checked.text(one, "a channel") for one in channels]
@@ -29,7 +30,7 @@ def _channels(channels: Any) -> List[str]:
         if not 1 <= len(parts) <= 2:
             raise InputError(f"channel {name} has {len(parts)} items", "give an expression, or (expression, unit)")
         unit = f":{checked.text(parts[1], 'a unit')}" if len(parts) == 2 else ""
-        texts.append(f"{checked.text(name, 'a channel')}={parts[0]}{unit}")
+        texts.append(f"{checked.text(name, 'a channel')}={checked.expression(parts[0], f'channel {name}')}{unit}")
     return texts
 
 
@@ -37,11 +38,11 @@ def _by_channel(values: Any, name: str) -> List[Tuple[str, Union[float, str]]]:
     if not isinstance(values, Mapping):
         raise InputError(f"{name} is {values!r}", f'give a dict, as {name}={{"v": 0.002}}')
     return [(checked.text(channel, "a channel"),
-             value if isinstance(value, str) else checked.number(value, f"{name} of {channel}"))
+             checked.text(value, name) if isinstance(value, str) else checked.number(value, f"{name} of {channel}"))
             for channel, value in values.items()]
 
 
-class Bench:
+class Bench(Fixed):
     """A simulated experiment: a function generator that drives a model, and sensors of its motion, which goes on as long as
     the bench exists. It uses no clock: time passes only by `record` and `wait`, so that the same calls give the same
     samples, bit for bit. Settings of the generator act at once, with continuous phase.
@@ -59,6 +60,10 @@ class Bench:
 
     Raises InputError for settings that cannot be used. `channels` are the names, `units` a dict.
     """
+
+    model: Model
+    channels: Tuple[str, ...]
+    units: Dict[str, str]
 
     def __init__(self, model: Any, *, amplitude: str = "V0", frequency: str = "f", offset: Optional[str] = None,
                  time_unit: float = 1.0, channels: Any = None, noise: Any = None, bias: Any = None, drift: Any = None,
@@ -84,17 +89,18 @@ class Bench:
         self._takes_offset = offset is not None
         self._core = _graze.Bench(self.model._core, words)
         named = self._core.channels
-        self.channels: Tuple[str, ...] = tuple(name for name, _ in named)
-        self.units: Dict[str, str] = dict(named)
+        self.channels = tuple(name for name, _ in named)
+        self.units = dict(named)
 
     def drive(self, *, frequency: float, amplitude: float, offset: float = 0.0, shape: str = "sine") -> None:
         """Sets the generator: frequency in Hz, amplitude in V from peak to peak, offset in V; shape: "sine", "square",
         "triangle", "ramp" or "dc", of which the model gets the component at the frequency."""
+        offset = checked.number(offset, "offset")
         if offset != 0 and not self._takes_offset:
             raise InputError(f"offset is {offset!r}, and the bench has no parameter for it",
                              "name it where the bench is made: Bench(..., offset=NAME)")
         self._core.drive(checked.number(frequency, "frequency", above=0), checked.number(amplitude, "amplitude", least=0),
-                         checked.number(offset, "offset"), checked.text(shape, "shape"))
+                         offset, checked.text(shape, "shape"))
 
     def command(self, line: str) -> str:
         """Gives the generator a line of SCPI commands, as "SYST:REM;VOLT 3". Returns its answer, which may be empty."""
@@ -157,7 +163,7 @@ class Bench:
         folder = OwnFolder() if port is None else None
         path = os.path.join(folder.path, "generator") if folder is not None else checked.path_of(port, "a serial line")
         words = {"port": path, "tcp": checked.whole(tcp, "tcp", 0, 65535), "speed": checked.number(speed, "speed", above=0),
-                 "on_demand": bool(on_demand), "drop": checked.number(drop, "drop", least=0),
+                 "on_demand": checked.truth(on_demand, "on_demand"), "drop": checked.number(drop, "drop", least=0),
                  "delay": checked.number(delay, "delay", least=0),
                  "break_after": checked.whole(break_after, "break_after", 0, 10**9),
                  "break_for": checked.number(break_for, "break_for", least=0),

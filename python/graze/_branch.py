@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Mapping, Optional
 
+from ._arguments import a_dict, whole
 from ._calls import computed
 from ._computing import Ways
 from ._errors import InputError
+from ._expressions import is_plain
 from ._model import Model
 from ._point import NOTHING_FOLLOWED, Point
-from ._progress import Progress
+from ._progress import Progress, interruptible
 from ._results import Results
 from ._run import Run
 from ._table import Table
@@ -31,15 +33,28 @@ class Branch(Run):
     def __getitem__(self, point: Any) -> Any:
         if isinstance(point, slice):
             return self.orbits()[point]
-        if isinstance(point, bool) or not (isinstance(point, str) or hasattr(point, "__index__")):
-            raise KeyError(f"an orbit is named by its label or number, not by {point!r}")
         if not isinstance(point, str):
-            number = point.__index__()
-            point = str(number if number >= 0 else len(self) + number)
+            point = str(self._number(point))
+        elif not is_plain(point):
+            raise KeyError(f"an orbit is named by its label or number, not by {point!r}")
         try:
             return self._points([self._store.read("orbit", self.name, point)])[0]
         except InputError as error:
+            if error.file:  # the mistake is one of the file, as of a damaged one, not of the label
+                raise
             raise KeyError(str(error)) from None
+
+    def _number(self, point: Any) -> int:
+        """The number of an orbit; negative ones count from the end."""
+        try:
+            number = whole(point, "point", -(10**30), 10**30)
+        except InputError:
+            raise KeyError(f"an orbit is named by its label or number, not by {point!r}") from None
+        if number >= 0:
+            return number
+        if number < -len(self):
+            raise KeyError(f"there is no orbit {number}: run '{self.name}' has {len(self)} orbits")
+        return len(self) + number
 
     def _points(self, made: List[Dict[str, Any]]) -> List[Point]:
         record = self._record
@@ -110,9 +125,13 @@ class Branch(Run):
         result.imag[point, position] = table["imaginary"]
         return result
 
-    def at(self, *, threads: Optional[int] = None, progress: Progress = None, **values: float) -> Orbit:
-        """The orbit of the branch at exactly one value of a parameter: the nearest one, moved there: `at(omega=2.5)`.
-        RunFailed if no orbit is found there."""
+    @interruptible()
+    def at(self, value: Optional[Mapping[str, float]] = None, /, *, threads: Optional[int] = None,
+           progress: Progress = None, **values: float) -> Orbit:
+        """The orbit of the branch at exactly one value of a parameter: the nearest one, moved there: `at(omega=2.5)`, or
+        `at({"omega": 2.5})`, as for a parameter that is called `threads`. RunFailed if no orbit is found there."""
+        if value is not None:
+            values = {**a_dict(value, "at()", '{"omega": 2.5}'), **values}
         if len(values) != 1:
             raise InputError(f"{len(values)} values are given", "give the value of one parameter: at(omega=2.5)")
         known = self._model.independent_parameters()

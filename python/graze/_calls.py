@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple, Type, TypeVar, Union
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple, Type, TypeVar, Union
 
+from . import _graze
 from ._analyses import PointAnalyses
+from ._arguments import near
 from ._computing import Ways
 from ._errors import StudyError
+from ._expressions import is_plain
 from ._keywords import keys_of
 from ._model import Model
 from ._results import Store
@@ -37,7 +40,7 @@ def compiled_model(source: Any, called: str) -> Any:
     raise TypeError(f"{called} needs a graze.Model, a run or a point, not {type(source).__name__}")
 
 
-def separated(kind: str, along: Along, keys: Dict[str, Any], model: Any) -> Tuple[Along, Dict[str, Any]]:
+def separated(kind: str, along: Along, keys: Dict[str, Any], model: Any, called: str) -> Tuple[Along, Dict[str, Any]]:
     """Separates parameters that are followed, given as keyword arguments, from the keys of a run."""
     known, parameters = keys_of(kind), [one["name"] for one in model.parameters]
     followed: Dict[str, Any] = dict(along) if isinstance(along, Mapping) else {}
@@ -47,7 +50,19 @@ def separated(kind: str, along: Along, keys: Dict[str, Any], model: Any) -> Tupl
             followed[name] = value
         else:
             rest[name] = value
+    require_known(kind, rest, called, parameters)
     return followed or along, rest
+
+
+def require_known(kind: str, keys: Dict[str, Any], called: str, others: Sequence[str] = ()) -> None:
+    """Refuses keys that no run has, and those that runs of this kind do not have also where they are None, which says
+    that a key is not given. others: names that the call may have besides."""
+    known = keys_of(kind)
+    anywhere = {name for one in _graze.kinds_of_runs() for name in keys_of(one)}
+    for name, value in keys.items():
+        if name not in known and (value is None or name not in anywhere):
+            place = called if not is_plain(name) else f"{called}, {name}"
+            raise StudyError(f"unknown key {name!r} in {called}", near(name, [*others, *known]), place)
 
 
 def _listed_runs(some: Any, key: str) -> List[Run]:
@@ -108,6 +123,7 @@ def computed(of: Type[OneRun], source: Any, keys: Dict[str, Any], called: str, w
         if name in keys:
             raise StudyError(f"{called} has no key '{name}'", "the function and its first argument say it")
     given, at, onto = (keys.pop(name, None) for name in ("start", "at", "onto"))
+    require_known(of.kind, keys, called)
     if isinstance(source, (Run, PointAnalyses)):
         given = source if given is None else given
         source = None

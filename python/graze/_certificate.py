@@ -5,10 +5,11 @@ from __future__ import annotations
 import html
 from typing import Any, Dict, Sequence
 
+from ._attributes import Fixed
 from ._table import Table
 
 
-class Certificate:
+class Certificate(Fixed):
     """What certifies that the model would follow an orbit (`graze orbit --format json`).
 
     `signature`; `symmetry` (of a half orbit; otherwise empty); `admissible`, and `reason` why not. Tables, in which
@@ -16,11 +17,19 @@ class Certificate:
     segments: how close other events come), `end_values` (of other event functions at the ends).
     """
 
+    segments: Table
+    minima: Table
+    end_values: Table
+    signature: str
+    symmetry: str
+    admissible: bool
+    reason: str
+
     def __init__(self, made: Dict[str, Any]) -> None:
-        self.signature: str = made["signature"]
-        self.symmetry: str = made["symmetry"]
-        self.admissible: bool = made["admissible"]
-        self.reason: str = made["reason"]
+        self.signature = made["signature"]
+        self.symmetry = made["symmetry"]
+        self.admissible = made["admissible"]
+        self.reason = made["reason"]
         self.segments = counted(*made["segments"])
         self.minima = counted(*made["minima"])
         self.end_values = counted(*made["end_values"])

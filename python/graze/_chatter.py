@@ -5,10 +5,11 @@ from __future__ import annotations
 import html
 from typing import Any, Dict, Optional
 
+from ._attributes import Fixed
 from ._table import Table
 
 
-class Chatter:
+class Chatter(Fixed):
     """A ladder of grazings, each with one contact more, and the onset of chatter to which it leads, as `graze ladder`
     tells it.
 
@@ -18,17 +19,28 @@ class Chatter:
     the limit. They are None where there is none, and `no_limit` says why. `ends`: why there are no further grazings.
     """
 
+    table: Table
+    parameter: str
+    ends: str
+    no_limit: str
+    limit: Optional[float]
+    limit_error: Optional[float]
+    extrapolated: Optional[float]
+    extrapolated_error: Optional[float]
+    restitution: Optional[float]
+    ratio: Optional[float]
+
     def __init__(self, made: Dict[str, Any]) -> None:
         self.table = Table(*made["table"])
-        self.parameter: str = made["parameter"]
-        self.ends: str = made["ends"]
-        self.no_limit: str = made["no_limit"]
-        self.limit: Optional[float] = made["limit"]
-        self.limit_error: Optional[float] = made["limit_error"]
-        self.extrapolated: Optional[float] = made["extrapolated"]
-        self.extrapolated_error: Optional[float] = made["extrapolated_error"]
-        self.restitution: Optional[float] = made["restitution"]
-        self.ratio: Optional[float] = made["ratio"]
+        self.parameter = made["parameter"]
+        self.ends = made["ends"]
+        self.no_limit = made["no_limit"]
+        self.limit = made["limit"]
+        self.limit_error = made["limit_error"]
+        self.extrapolated = made["extrapolated"]
+        self.extrapolated_error = made["extrapolated_error"]
+        self.restitution = made["restitution"]
+        self.ratio = made["ratio"]
 
     def __getitem__(self, name: str) -> Any:
         return self.table[name]

@@ -5,20 +5,20 @@ from __future__ import annotations
 import os
 from typing import Any, Callable, Dict, List, Optional, Tuple
 
-from . import _graze
-from ._arguments import number_of_threads
+from . import _arguments as checked, _graze
+from ._attributes import Fixed
 from ._design_text import DesignText
 from ._errors import InputError, OrderError
 from ._facts import Facts
 from ._model import Model
 from ._output import Replacement, empty_folder, write_file
-from ._progress import Progress, attended
+from ._progress import Progress, attended, interruptible
 from ._results import StoredFile
 from ._study import Study
 from ._table import Table
 
 
-class Design(Facts):
+class Design(Fixed, Facts):
     """A designed switch: the device, and what is known about it.
 
     A mapping from the quantities of `facts` to their values: `found["trip_value"]`. Attributes:
@@ -38,13 +38,33 @@ class Design(Facts):
     draws them.
     """
 
+    name: str
+    control: str
+    trip_value: float
+    reset_value: Optional[float]
+    outcome: str
+    outcome_reason: str
+    wishes: str
+    warnings: List[str]
+    dimensions: Dict[str, float]
+    tables: Dict[str, Table]
+    facts: Table
+    sensitivities: Optional[Table]
+    earlier: Optional[Table]
+    trip_times: Optional[Table]
+    tuning: Optional[Table]
+    devices: Optional[Table]
+    curves: Dict[str, Table]
+    planes: Dict[Tuple[str, str], Table]
+    problems: Dict[str, int]
+
     def __init__(self, core: Any, inputs: List[Tuple[str, str]], source: DesignText) -> None:
         self._core, self._inputs, self._source, self._folder = core, inputs, source, source.folder
         self.name, self.control = core.name, core.control
         self.trip_value, self.reset_value = core.trip_value, core.reset_value
         self.outcome, self.outcome_reason = core.outcome, core.outcome_reason
         self.wishes, self.warnings = core.wishes, list(core.warnings)
-        self.problems: Dict[str, int] = dict(core.problems)
+        self.problems = dict(core.problems)
         self.dimensions = {one["name"]: one["value"] for one in core.dimensions}
         self.tables = {name: Table(*core.table(i)) for i, name in enumerate(core.table_names)}
         self.facts = self.tables["facts"]
@@ -155,6 +175,7 @@ class Design(Facts):
         return f"<b>{self.name}</b>{self.facts._repr_html_()}"
 
 
+@interruptible()
 def design(design: Any = None, *, text: Optional[str] = None, threads: Optional[int] = None, executor: Any = None,
            progress: Progress = None, **keys: Any) -> Design:
     """Designs a switch: finds dimensions that meet a list of wishes, and writes up what the device does.
@@ -182,7 +203,7 @@ def design(design: Any = None, *, text: Optional[str] = None, threads: Optional[
     inputs = [("the design, or what it reads,", path) for path in (source.path, *read.inputs)]
     try:
         with attended(progress, "text") as told, handed_out(executor, told) as (parts, look):
-            core = read.compute(source.folder.path, threads=number_of_threads(threads), told=look, parts=parts)
+            core = read.compute(source.folder.path, threads=checked.number_of_threads(threads), told=look, parts=parts)
     except InputError as error:
         raise source.told(error) from None
     return Design(core, inputs, source)
@@ -218,4 +239,4 @@ def designs() -> Dict[str, str]:
 
 def design_text(name: str) -> str:
     """The file of a shipped design, as a copy to change. InputError for an unknown name, with the nearest."""
-    return str(_graze.shipped_design_text(name))
+    return str(_graze.shipped_design_text(checked.text(name, "name")))

@@ -8,7 +8,8 @@ from typing import Any, Callable, Dict, List, Optional, Tuple
 
 from . import _graze
 from ._arguments import path_of, text as checked_text
-from ._errors import Error, FileError, InputError, relocated
+from ._errors import Error, InputError, relocated
+from ._input import read_text
 from ._keywords import toml_key, toml_value
 from ._model import Model
 from ._output import OwnFolder
@@ -20,6 +21,7 @@ class DesignText:
     _what = "design"
     _remedy = "give the name of a shipped design (graze.designs() lists them), or a file"
     _shipped = True  # a word without an ending names a shipped one
+    _parsed: Callable[[str, str], Any] = _graze.Design.parsed
 
     def __init__(self, design: Any, text: Any, keys: Dict[str, Any], called: str) -> None:
         """keys: of design files; dicts in them change what they name, None takes a key away."""
@@ -43,14 +45,9 @@ class DesignText:
         name = path_of(design, f"the {self._what}", self.called, self._remedy)
         if self._shipped and "/" not in name and not name.endswith(".toml"):
             return name, str(_graze.shipped_design_text(name))
-        try:
-            with open(name, encoding="utf-8") as file:
-                self.path = name
-                return name, file.read()
-        except OSError as error:
-            raise FileError(f"the {self._what} '{name}' cannot be read: {error.strerror}", self._remedy) from None
-        except UnicodeDecodeError:
-            raise FileError(f"the {self._what} '{name}' is no text in UTF-8", "name another file") from None
+        text = read_text(name, self._what, self._remedy)
+        self.path = name
+        return name, text
 
     def _change(self, keys: Dict[str, Any]) -> None:
         import tomllib
@@ -59,18 +56,33 @@ class DesignText:
             given = tomllib.loads(self.text)
         except tomllib.TOMLDecodeError:
             return  # the library's reader says what is wrong, and where
+        changed, asked = _merged(given, keys), _merged(given, keys, absent={})
+        self.text, self._keys = self._text_of(changed)
+        if asked != changed:
+            self._require_known(*self._text_of(asked))
+
+    def _text_of(self, keys: Dict[str, Any]) -> Tuple[str, List[str]]:
+        """The text of a file with these keys, and the key of each of its lines."""
         lines: List[str] = []
-        names: List[str] = []
-        for name, value in _merged(given, keys).items():
+        for name, value in keys.items():
+            checked_text(name, self.called)
             if isinstance(value, Model):
                 value = self._model_file(value)
             try:
                 lines.append(f"{toml_key(name)} = {toml_value(value, name)}")
             except InputError as error:
                 raise InputError(error.problem, error.remedy, f"{self.called}, {name}") from None
-            names.append(name)
-        self._keys = names
-        self.text = "\n".join(lines) + "\n"
+        return "\n".join(lines) + "\n", list(keys)
+
+    def _require_known(self, text: str, keys: List[str]) -> None:
+        """Refuses unknown keys of which a call says that they are not given (None): the library knows which there are.
+        text: has empty tables in their places."""
+        try:
+            type(self)._parsed(text, self.file)
+        except InputError as error:
+            for one in error.all:
+                if one.problem.startswith("unknown key") and 0 < one.line <= len(keys):
+                    raise InputError(one.problem, one.remedy, f"{self.called}, {keys[one.line - 1]}") from None
 
     def _model_file(self, model: Model) -> str:
         path = os.path.join(self.folder.path, f"{model.name or 'model'}.toml")
@@ -105,15 +117,20 @@ class ExperimentText(DesignText):
     _what = "experiment"
     _remedy = "give the file of an experiment, or its keys"
     _shipped = False
+    _parsed = _graze.Experiment.parsed
 
 
-def _merged(given: Any, changes: Any) -> Dict[str, Any]:
+def _merged(given: Any, changes: Any, absent: Any = None) -> Dict[str, Any]:
+    """absent: what stands for a key that is not given and that the changes take away; None: nothing."""
     result = dict(given)
     for name, value in changes.items():
-        if value is None:
+        if value is None and name not in given and absent is not None:
+            result[name] = absent
+        elif value is None:
             result.pop(name, None)
-        elif isinstance(value, Mapping) and isinstance(result.get(name), dict):
-            result[name] = _merged(result[name], value)
+        elif isinstance(value, Mapping):
+            before = result.get(name)
+            result[name] = _merged(before if isinstance(before, dict) else {}, value, absent)
         else:
             result[name] = value
     return result

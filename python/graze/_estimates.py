@@ -80,8 +80,6 @@ class Estimates(Mapping):  # type: ignore[type-arg]
         return f"<Estimates: {values}{f'; warnings: {len(self.warnings)}' if self.warnings else ''}>"
 
     def _repr_html_(self) -> str:
-        import html
-
         told = "".join(f"<p>{html.escape(text)}</p>" for text in self.warnings)
         return str(self.table._repr_html_()) + told
 

@@ -6,16 +6,17 @@ import os
 from typing import Any, Dict, Optional
 
 from . import _arguments as checked, _graze
+from ._attributes import Fixed
 from ._bench import Bench
 from ._design_text import ExperimentText
 from ._errors import InputError, InstrumentError, Interrupted
-from ._progress import Progress, telling
+from ._progress import Progress, interruptible, telling
 from ._record import MeasuredRecords, read_record
 from ._table import Table
 from ._watchdog import Watchdog
 
 
-class Experiment:
+class Experiment(Fixed):
     """A sequence of levels of a generator, with a record at each: docs/experiment.md describes the file.
 
     experiment: a file; or text: the text of one; keys: its keys, as generator={"port": ...}, limits=..., samples=...,
@@ -27,14 +28,20 @@ class Experiment:
     against the limits. Raises InputError for mistakes (`all` lists them).
     """
 
+    name: str
+    text: str
+    safe: float
+    rate: float
+    samples: int
+
     def __init__(self, experiment: Any = None, *, text: Optional[str] = None, **keys: Any) -> None:
         self._source = ExperimentText(experiment, text, keys, "Experiment()")
         self._core = self._source.read(_graze.Experiment.parsed)
-        self.name: str = self._core.name
-        self.text: str = self._core.text
-        self.safe: float = self._core.safe
-        self.rate: float = self._core.rate
-        self.samples: int = self._core.samples
+        self.name = self._core.name
+        self.text = self._core.text
+        self.safe = self._core.safe
+        self.rate = self._core.rate
+        self.samples = self._core.samples
 
     @property
     def levels(self) -> Table:
@@ -50,7 +57,7 @@ class Experiment:
         return f"<Experiment {self.name}: {len(self._core.levels)} levels, {self.samples} samples at {self.rate:g} Hz>"
 
 
-class Acquisition:
+class Acquisition(Fixed):
     """The records of an experiment: `folder`, `records` (MeasuredRecords in the order of the levels; None: there are none
     yet), and `entries`, a table of them: number, file, frequency, amplitude, direction, told (the amplitude that the
     generator reports), settled, settling (seconds), samples.
@@ -61,16 +68,27 @@ class Acquisition:
     `off` whether its output is off instead.
     """
 
+    experiment: Experiment
+    folder: str
+    ending: str
+    detail: str
+    before: int
+    recorded: int
+    unsettled: int
+    safe: bool
+    unsafe_because: str
+    off: bool
+
     def __init__(self, experiment: Experiment, folder: str, report: Dict[str, Any]) -> None:
         self.experiment, self.folder = experiment, folder
-        self.ending: str = report["ending"]
-        self.detail: str = report["detail"]
-        self.before: int = report["before"]
-        self.recorded: int = report["recorded"]
-        self.unsettled: int = report["unsettled"]
-        self.safe: bool = report["safe"]
-        self.unsafe_because: str = report["unsafe_because"]
-        self.off: bool = report["off"]
+        self.ending = report["ending"]
+        self.detail = report["detail"]
+        self.before = report["before"]
+        self.recorded = report["recorded"]
+        self.unsettled = report["unsettled"]
+        self.safe = report["safe"]
+        self.unsafe_because = report["unsafe_because"]
+        self.off = report["off"]
         self._rows = report["entries"]
 
     @property
@@ -98,6 +116,7 @@ class Acquisition:
         return f"<Acquisition {self.folder}: {len(self._rows)} of {len(self.experiment._core.levels)} records; {self.ending}>"
 
 
+@interruptible()
 def acquire(experiment: Any = None, *, text: Optional[str] = None, output: Any = None, port: Optional[str] = None,
             device: Optional[str] = None, bench: Optional[Bench] = None, progress: Progress = None,
             **keys: Any) -> Acquisition:

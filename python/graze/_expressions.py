@@ -57,6 +57,10 @@ is no number.
 """
 
 
+NOT_PLAIN = "has parts of characters that are no characters", "leave them out"
+"""What is wrong with a text that UTF-8 cannot say, and what to do."""
+
+
 def is_plain(text: str) -> bool:
     """Whether UTF-8 can say the text."""
     try:
@@ -70,7 +74,7 @@ def plain(text: Any) -> str:
     """The text of an object. Raises InputError if UTF-8 cannot say it."""
     text = str(text)
     if not is_plain(text):
-        raise InputError(f"{short(text)} has parts of characters that are no characters", "leave them out")
+        raise InputError(f"{short(text)} {NOT_PLAIN[0]}", NOT_PLAIN[1])
     return text
 
 

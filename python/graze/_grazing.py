@@ -7,6 +7,7 @@ import re
 from typing import Any, Dict, Iterable, List, NamedTuple, NoReturn, Optional
 
 from . import _arguments as checked
+from ._attributes import Fixed
 from ._errors import OrderError
 from ._facts import Facts
 from ._table import Table
@@ -69,7 +70,7 @@ class MapMotion(NamedTuple):
     bounded: bool
 
 
-class Grazing(Facts):
+class Grazing(Fixed, Facts):
     """What an orbit that touches leads to, as `graze grazing` tells it.
 
     A mapping from names of facts to their values: `grazing["verdict"]`, or `grazing.verdict`, is "lost", "persists",
@@ -78,6 +79,13 @@ class Grazing(Facts):
     `projections` is an array of the facts projection_1, projection_2, ...; `cycle_map` the map itself (None where there
     is none); `trial_motions` the table of the motions simulated to check the verdict (empty without `verify`).
     """
+
+    point: str
+    facts: Table
+    reason: str
+    trial_motions: Table
+    projections: Any
+    cycle_map: Optional[CycleMap]
 
     def __init__(self, point: str, made: Dict[str, Any]) -> None:
         import numpy

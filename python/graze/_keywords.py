@@ -10,6 +10,8 @@ from typing import Any, Callable, Dict, Iterable, List, Optional, Tuple, TypeVar
 
 from . import _graze
 from ._errors import Error, InputError, StudyError, as_kind, relocated
+from ._expressions import NOT_PLAIN, is_plain
+from ._progress import interruptible
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -61,10 +63,8 @@ def toml_value(value: Any, path: str, depth: int = 0) -> str:
 
 
 def _letters(text: str, path: str) -> str:
-    try:
-        text.encode()
-    except UnicodeEncodeError:
-        raise StudyError(f"{path} has letters that Unicode does not have", "give a text of other letters") from None
+    if not is_plain(text):
+        raise StudyError(f"{path} {NOT_PLAIN[0]}", NOT_PLAIN[1])
     return text
 
 
@@ -85,7 +85,10 @@ def variation(value: Any, path: str) -> Any:
     if isinstance(value, tuple):
         if len(value) != 3:
             raise StudyError(f"{path} has {len(value)} items", "give (from, to, points), a list of values, or a dict")
-        return {"from": value[0], "to": value[1], "points": value[2]}
+        points = value[2]
+        if isinstance(points, float) and points.is_integer():
+            points = int(points)
+        return {"from": value[0], "to": value[1], "points": points}
     return value
 
 
@@ -145,7 +148,12 @@ _WORDS = (
     ("relative to the study", "relative to the working folder"),
     ("the study's folder", "the working folder"),
     ("the study has no run ", "there is no run "),
+    ("must be a table", "must be a dict"),
+    (", not a table", ", not a dict"),
 )
+
+
+_TABLE = re.compile(r"(?:\b([a-z_]+) = )?(\{ (?:[^{}]|\{[^{}]*\})* \})")  # as a file has it, with tables in it
 
 
 class CallText:
@@ -169,7 +177,8 @@ class CallText:
         text = text.replace(f"runs.{self.run.name}.", "").replace(f"runs.{self.run.name}", self.called)
         for words, others in _WORDS:
             text = text.replace(words, others)
-        return text
+        text = "give a dict" if text == "give a table" else text
+        return _TABLE.sub(lambda found: (f"{found[1]}=" if found[1] else "") + _python_form(found[2]), text)
 
     def told(self, error: Error) -> Error:
         """An error with the place in the call instead of that in the text."""
@@ -188,6 +197,7 @@ _TRUTHS = {"true": "True", "false": "False"}
 def _python_form(form: str) -> str:
     """How a value is written in Python, of the form that it has in a study."""
     form = re.sub(r"([{,] )(\w+) = ", r'\1"\2": ', form)
+    form = form.replace("[..]", "[...]")
     form = re.sub(r"\b(true|false)\b", lambda word: _TRUTHS[word[1]], form)
     return form.replace("{ ", "{").replace(" }", "}")
 
@@ -236,7 +246,8 @@ class RunFunction:
         self._text = function.__doc__ or ""
 
     def __call__(self, *arguments: Any, **keys: Any) -> Any:
-        return self.__wrapped__(*arguments, **keys)
+        with interruptible():
+            return self.__wrapped__(*arguments, **keys)
 
     def __get__(self, instance: Any, owner: Any = None) -> Any:
         if instance is None:

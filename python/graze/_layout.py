@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
 from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple, Union
 
 from . import _arguments as checked, _graze
+from ._attributes import Fixed
 from ._design import Design
 from ._design_text import DesignText
 from ._errors import Error, InputError, Interrupted, relocated
 from ._facts import Facts
 from ._model import Model
 from ._output import OwnFolder, Replacement, write_file
-from ._progress import Progress, attended
+from ._progress import Progress, attended, interruptible
 from ._table import Table
 from ._wafers import Wafers
 
@@ -54,7 +54,7 @@ class ComparedDevice(NamedTuple):
     parameters: str
 
 
-class Layout(Facts):
+class Layout(Fixed, Facts):
     """A drawn device, or a wafer of them.
 
     `table` has what is measured on the drawing, and the model of the etched device; `layout["gap"]` is one of its values
@@ -66,19 +66,26 @@ class Layout(Facts):
     copied and pickled: a copy is drawn anew.
     """
 
+    is_wafer: bool
+    table: Table
+    rules: Table
+    name: str
+    top: str
+    broken: List[str]
+
     def __init__(self, core: Any, source: DesignText, inputs: List[Tuple[str, str]], options: List[str],
                  asked: Tuple[Dict[str, Any], bool, Any]) -> None:
         """asked: `set`, `wafer` and the folder of the designed device (None: none)."""
         self._core, self._source, self._inputs, self._options, self._asked = core, source, inputs, options, asked
-        self.name: str = core.name
-        self.top: str = core.top
+        self.name = core.name
+        self.top = core.top
         self.is_wafer = asked[1]
         self.table = Table(*core.table())
         super().__init__(self.table["what"], map(float, self.table["value"]))
         rows = core.findings
         names = ("rule", "value", "limit", "unit", "holds", "part", "device", "x", "y", "text")
         self.rules = Table(names, [self._column(rows, name) for name in names])
-        self.broken: List[str] = [row["text"] for row in rows if not row["holds"]]
+        self.broken = [row["text"] for row in rows if not row["holds"]]
 
     @staticmethod
     def _column(rows: List[Dict[str, Any]], name: str) -> Any:
@@ -127,14 +134,15 @@ class Layout(Facts):
 
     def recipe(self, *, despite_rules: bool = False) -> str:
         """The process recipe, step by step, in Markdown."""
-        return str(self._core.recipe([*self._options, *(["--despite-rules"] if self.broken and despite_rules else [])]))
+        despite = checked.truth(despite_rules, "despite_rules") and self.broken
+        return str(self._core.recipe([*self._options, *(["--despite-rules"] if despite else [])]))
 
     def markers(self) -> str:
         """The places that break a rule, as markers of KLayout (.lyrdb)."""
         return str(self._core.markers())
 
     def _require_ruled(self, despite_rules: bool) -> None:
-        if not despite_rules:
+        if not checked.truth(despite_rules, "despite_rules"):
             try:
                 self._core.require_ruled()
             except InputError as error:
@@ -210,12 +218,14 @@ class Layout(Facts):
         import numpy
         from matplotlib.patches import Rectangle
 
+        from ._plot import plane_axes
+
         steps = self.steps()
         if axes is None:
             from matplotlib import pyplot
 
             _, axes = pyplot.subplots(len(steps), 1, figsize=(7, 1.1 * len(steps)), layout="constrained", sharex=True)
-        axes = numpy.atleast_1d(axes).ravel()
+        axes = numpy.array(plane_axes(axes))
         if len(axes) != len(steps):
             raise InputError(f"{len(axes)} axes were given, and there are {len(steps)} steps", "give as many, or none")
         for one, (text, slabs) in zip(axes, steps):
@@ -226,6 +236,7 @@ class Layout(Facts):
         axes[-1].set_xlabel("x (um)")
         return axes
 
+    @interruptible()
     def compare(self, *, threads: Optional[int] = None, executor: Any = None,
                 progress: Progress = None) -> ComparedDevice:
         """Where and how fast the drawn device trips, and which wishes it meets, beside the designed one. Needs a drawing
@@ -234,6 +245,7 @@ class Layout(Facts):
         made = self._attended(self._core.drawn, folder.path, threads=threads, executor=executor, progress=progress)
         return ComparedDevice(Table(*made["table"]), made["met"], made["drawing"], made["parameters"])
 
+    @interruptible()
     def wafers(self, count: int, *, seed: int = 1, despite_rules: bool = False, threads: Optional[int] = None,
                executor: Any = None, progress: Progress = None) -> Wafers:
         """Makes wafers of devices by simulation, with the variations of the section `spread` of the design: where each
@@ -247,8 +259,9 @@ class Layout(Facts):
         of an executor.
         """
         count, seed = checked.whole(count, "count", 1, 100_000), checked.whole(seed, "seed", 0, 2**53)
+        despite = checked.truth(despite_rules, "despite_rules")
         folder = OwnFolder()
-        made = self._attended(self._core.wafers, folder.path, count, seed=seed, despite_rules=bool(despite_rules),
+        made = self._attended(self._core.wafers, folder.path, count, seed=seed, despite_rules=despite,
                               threads=threads, executor=executor, progress=progress)
         return Wafers(self, made, count, seed, folder)
 
@@ -285,30 +298,29 @@ class Layout(Facts):
 
 
 def _mask(mask: Any) -> Optional[int]:
-    if mask is not None and (isinstance(mask, bool) or mask not in (1, 2)):
-        raise InputError(f"mask is {mask!r}", "give 1 or 2, or leave it out for both")
-    return None if mask is None else int(mask)
+    return None if mask is None else checked.whole(mask, "mask", 1, 2)
 
 
 def _axes(axes: Any) -> Any:
     if axes is None:
         from matplotlib import pyplot
 
-        axes = pyplot.figure(figsize=(8, 8), layout="constrained").add_subplot()
-    return axes
+        return pyplot.figure(figsize=(8, 8), layout="constrained").add_subplot()
+    from ._plot import checked_axes
+
+    return checked_axes(axes, 1)[0]
 
 
 def _given(set_: Any) -> List[Tuple[str, Union[float, str]]]:
-    if not isinstance(set_, Mapping):
-        raise InputError(f"set is {set_!r}", 'give a dict, as {"gap": 14, "stop_gap": "7.5 um"}')
-    given: List[Tuple[str, Union[float, str]]] = []
-    for name, value in set_.items():
-        if not isinstance(name, str):
-            raise InputError(f"set has the key {name!r}", "name dimensions by texts")
-        given.append((name, value if isinstance(value, str) else checked.number(value, f"layout(), set, {name}")))
-    return given
+    def of(name: Any, value: Any) -> Tuple[str, Union[float, str]]:
+        name = checked.text(name, "layout(), set")
+        place = f"layout(), set, {name}"
+        return name, checked.text(value, place) if isinstance(value, str) else checked.number(value, place)
+
+    return [of(*one) for one in checked.a_dict(set_, "layout(), set", '{"gap": 14, "stop_gap": "7.5 um"}').items()]
 
 
+@interruptible()
 def layout(design: Any = None, *, text: Optional[str] = None, set: Any = None, wafer: bool = False,
            from_design: Any = None, **keys: Any) -> Layout:
     """Draws the masks of a switch, checks the rules of fabrication, and makes the model of the etched device.
@@ -340,9 +352,10 @@ def layout(design: Any = None, *, text: Optional[str] = None, set: Any = None, w
 def drawn(source: DesignText, set_: Any, wafer: bool, from_design: Any) -> Layout:
     """The layout of a design's text; other arguments: see `layout`."""
     given = _given(set_) if set_ is not None else []
+    wafer = checked.truth(wafer, "layout(), wafer")
     folder = _folder_of(from_design)
     try:
-        core = _graze.Layout(source.text, source.file, given=given, wafer=bool(wafer),
+        core = _graze.Layout(source.text, source.file, given=given, wafer=wafer,
                              from_design=None if folder is None else os.fspath(folder))
     except KeyboardInterrupt:
         raise Interrupted() from None
@@ -355,7 +368,7 @@ def drawn(source: DesignText, set_: Any, wafer: bool, from_design: Any) -> Layou
     for name, value in given:
         shown = value if isinstance(value, str) else repr(value).removesuffix(".0")
         options += ["--set", f"{name}={shown}"]
-    return Layout(core, source, inputs, options, (dict(given), bool(wafer), folder))
+    return Layout(core, source, inputs, options, (dict(given), wafer, folder))
 
 
 def _place_of(error: Error) -> Optional[str]:

@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from typing import Any, Dict, NamedTuple, Optional, Tuple
 
 from . import _graze
-from ._arguments import path_of
+from ._arguments import near, path_of
+from ._attributes import Fixed
 from ._errors import InputError, ModelError, as_kind
 from ._expressions import Expression, is_number, number_of, plain, short
 from ._model_values import Initial, Parameters, html_table
@@ -31,7 +32,7 @@ class Finding(NamedTuple):
     text: str
 
 
-class Model:
+class Model(Fixed):
     """A hybrid dynamical system: states, parameters, modes with their equations, events, jumps.
 
     `Model(text=...)` reads the text of a model file, `Model(file=...)` a file, `Model.shipped(name)` a model that comes
@@ -90,7 +91,6 @@ class Model:
             self._set(given)
 
     def _write(self, name: Any, text: Any, parts: Dict[str, Any], values: Dict[str, Any]) -> None:
-        from ._model_arguments import near
         from ._written_model import FILE, WrittenModel
 
         for key in values:
@@ -112,6 +112,12 @@ class Model:
                 self._core = _graze.Model.loaded(path if "/" in path else "./" + path)
         except InputError as error:
             raise as_kind(error, ModelError) from None
+
+    def _instead(self, name: str) -> str:
+        for values, called in ((self.parameters, "parameters"), (self.initial, "initial")):
+            if name in values:
+                return f"set model.{called}.{name}"
+        return near(name, ["parameters", "initial", "initial_mode"])
 
     @classmethod
     def _of(cls, core: Any, parameters: Any = None) -> Model:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Dict, List
 
+from ._arguments import near
 from ._errors import ModelError
 from ._expressions import Expression, short
 from ._model_parts import Jump, Mode, Part, Symmetry
@@ -12,17 +13,6 @@ from ._model_parts import Jump, Mode, Part, Symmetry
 
 def mistake(label: str, problem: str, remedy: str = "") -> ModelError:
     return ModelError(problem, remedy, f"Model(), {label}" if label else "Model()")
-
-
-def near(name: str, known: Any) -> str:
-    """A remedy that names what was perhaps meant."""
-    from difflib import get_close_matches
-
-    known = [str(one) for one in known]
-    found = get_close_matches(str(name), known, 1)
-    if found:
-        return f"did you mean '{found[0]}'?"
-    return f"known: {', '.join(known)}" if known else "there are none"
 
 
 def key_of(key: Any, label: str) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Optional, Tuple, Union
 
 from . import _arguments as checked, _graze
+from ._attributes import Fixed
 from ._errors import InputError
 from ._model import Model
 from ._table import Table
@@ -19,7 +20,7 @@ Names = Union[str, _graze.Expression, Iterable[Union[str, _graze.Expression]]]
 """One name or expression, or several."""
 
 
-class Motion:
+class Motion(Fixed):
     """A computed motion.
 
     `motion["x"]` (or `motion.x`) are the sampled values of a state or quantity at the times `motion.t`. Tables, with a
@@ -30,20 +31,24 @@ class Motion:
     "terminal", "singular", "table-full", "interrupted", ...), `detail` why, `regular` whether as asked or by the nature
     of the system; `end_time`, `end_state` (a dict) and `end_mode` when and where; `steps` how many steps were made.
 
+    Arrays can be read only: copy them to change them, `x = motion["x"].copy()`.
     Motions stay valid whatever becomes of model and simulation, and can be pickled.
     """
+
+    ending: str
+    regular: bool
+    detail: str
+    end_time: float
+    end_mode: str
+    steps: int
 
     def __init__(self, simulation: Simulation, asked: Dict[str, Any], made: Any) -> None:
         self._simulation, self._asked = simulation, asked
         self._core: Any = made
         self._tables: Dict[str, Optional[Table]] = {}
         self._steps: Any = None
-        self.ending: str = made.ending
-        self.regular: bool = made.regular
-        self.detail: str = made.detail
-        self.end_time: float = made.time
-        self.end_mode: str = made.mode
-        self.steps: int = made.steps
+        self.ending, self.regular, self.detail = made.ending, made.regular, made.detail
+        self.end_time, self.end_mode, self.steps = made.time, made.mode, made.steps
 
     def _table(self, name: str) -> Optional[Table]:
         if name not in self._tables:
@@ -93,7 +98,7 @@ class Motion:
     @property
     def derivatives(self) -> Optional[Table]:
         """The derivatives of the last state: state, value, and a column "d_NAME" for each direction. NaN where they do
-        not exist, as after a contact without speed."""
+        not exist, as after a contact without speed. Those by parameters hold the initial state."""
         return self._table("derivatives")
 
     @property
@@ -133,13 +138,11 @@ class Motion:
     def __call__(self, times: Any) -> numpy.ndarray[Any, Any]:
         """States at these times, along a further last axis; NaN outside of the motion. At the time of a contact: those
         just before it. Raises InputError unless the motion was simulated with `dense=True`."""
-        import numpy
-
         if not self._asked.get("dense"):
             raise InputError("the steps of this motion were not kept", "simulate it with dense=True")
         if self._steps is None:
             self._steps = self._core.dense()
-        asked = numpy.asarray(times, dtype=float)
+        asked = checked.numbers(times, "times")
         states = self._steps.at(asked.ravel())
         return states.reshape(*asked.shape, states.shape[-1])
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import secrets
 import shutil
 import tempfile
 import weakref
@@ -98,10 +99,10 @@ class Replacement:
         return self.temporary
 
     def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
-        if self._direct:
-            return
         try:
-            if kind is None:
+            if self._direct:
+                pass
+            elif kind is None:
                 os.replace(self.temporary, self.target)
             else:
                 os.unlink(self.temporary)
@@ -155,8 +156,15 @@ class OwnFolder:
     def path(self) -> str:
         if not self._path:
             with writing("a temporary folder"):
-                self._path = tempfile.mkdtemp(prefix="graze-")
-            weakref.finalize(self, _remove, self._path, os.getpid())
+                path = os.path.join(tempfile.gettempdir(), f"graze-{secrets.token_hex(8)}")
+                # Before the folder is there, so that an interruption leaves none.
+                removal = weakref.finalize(self, _remove, path, os.getpid())
+                try:
+                    os.mkdir(path, 0o700)
+                except OSError:
+                    removal.detach()  # what is there is another's
+                    raise
+            self._path = path
         return self._path
 
     def __fspath__(self) -> str:

@@ -167,7 +167,8 @@ def _drawn_into(core: Any, panels: List[Any], given: List[Any]) -> Any:
     return given[0] if len(given) == 1 else numpy.array(given)
 
 
-def checked_axes(axes: Any, panels: int) -> List[Any]:
+def plane_axes(axes: Any) -> List[Any]:
+    """Axes of matplotlib that a caller gave, one or any arrangement of several, as a list."""
     import numpy
     from matplotlib.axes import Axes
 
@@ -176,11 +177,16 @@ def checked_axes(axes: Any, panels: int) -> List[Any]:
         if not isinstance(one, Axes) or one.name != "rectilinear":
             raise InputError(f"axes has an object of type {type(one).__name__}",
                              "give plane axes of matplotlib, as pyplot.subplots() returns them")
+    if len(set(map(id, given))) != len(given):
+        raise InputError("the same axes were given twice", "give one for each panel")
+    return given
+
+
+def checked_axes(axes: Any, panels: int) -> List[Any]:
+    given = plane_axes(axes)
     if len(given) != panels:
         raise InputError(f"{len(given)} axes were given, and there {'is' if panels == 1 else 'are'} {panels} "
                          f"panel{'' if panels == 1 else 's'}", "give one for each panel, or none")
-    if len(set(map(id, given))) != len(given):
-        raise InputError("the same axes were given twice", "give one for each panel")
     return given
 
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple
 
 from ._analyses import PointAnalyses
+from ._attributes import Fixed
 from ._calls import Along, computed, separated
 from ._computing import Ways
 from ._errors import InputError
 from ._keywords import takes_keys_of
 from ._model import Model
-from ._progress import Progress
+from ._progress import Progress, interruptible
 
 if TYPE_CHECKING:
     from ._branch import Branch, Curve, Ladder, Orbit
@@ -22,7 +23,7 @@ _OF_SETTLING = ("start", "from", "mode", "signature", "table", "section", "bound
 NOTHING_FOLLOWED = "an orbit by itself follows no parameter; its dict `parameters` has the values of all"
 
 
-class Point(PointAnalyses):
+class Point(Fixed, PointAnalyses):
     """An orbit of a run: a special point of a branch, or a regular one.
 
     Attributes: `label` ("GR1"; empty for regular points), `number`, `type` ("GR"), `type_words` ("grazing"), `detail`,
@@ -31,11 +32,14 @@ class Point(PointAnalyses):
     `starts` (segments x states), `durations` and `approach_speeds` (segments); and dicts `parameters`, `monitors`. Arrays can be read only: copy them to change them.
     """
 
+    parameters: Dict[str, float]
+    monitors: Dict[str, float]
+
     def __init__(self, run: Branch, made: Dict[str, Any], parameters: Sequence[str], monitors: Sequence[str]) -> None:
         self._run = run
         self._made = made
-        self.parameters: Dict[str, float] = dict(zip(parameters, made.pop("parameters").tolist()))
-        self.monitors: Dict[str, float] = dict(zip(monitors, made.pop("monitors").tolist()))
+        self.parameters = dict(zip(parameters, made.pop("parameters").tolist()))
+        self.monitors = dict(zip(monitors, made.pop("monitors").tolist()))
         for value in made.values():
             if hasattr(value, "setflags"):
                 value.setflags(write=False)  # the point is kept: nobody is to change it for all
@@ -80,7 +84,7 @@ class Point(PointAnalyses):
 
         onto: "same", "other" or "twin" (chosen by the type of the point). Raises RunFailed where no orbit is found.
         """
-        along, keys = separated("continue", along, keys, self._run._model)
+        along, keys = separated("continue", along, keys, self._run._model, "follow()")
         return self._child("continue", {"along": along, **keys}, "follow()", Ways(threads, progress), onto)
 
     @takes_keys_of("continue", *_OF_SETTLING)
@@ -89,7 +93,7 @@ class Point(PointAnalyses):
         """The other branch that leaves here, along the same parameter unless `along` says another: beyond a grazing the
         orbits with one contact more, at a flip those of twice the period, at a branch point the other branch, where a
         symmetry is lost the orbits without it."""
-        along, keys = separated("continue", along, keys, self._run._model)
+        along, keys = separated("continue", along, keys, self._run._model, "switch()")
         along = self._along_as_before() if along is None else along
         return self._child("continue", {"along": along, **keys}, "switch()", Ways(threads, progress), "other")
 
@@ -99,7 +103,7 @@ class Point(PointAnalyses):
         """The orbits of twice the period that leave at a flip. InputError for other points."""
         if self.type != "PD":
             raise InputError(f"{self._name()} is no flip (PD) but {self.type_words}", "use switch()")
-        along, keys = separated("continue", along, keys, self._run._model)
+        along, keys = separated("continue", along, keys, self._run._model, "double()")
         along = self._along_as_before() if along is None else along
         return self._child("continue", {"along": along, **keys}, "double()", Ways(threads, progress), "other")
 
@@ -107,10 +111,11 @@ class Point(PointAnalyses):
     def twin(self, *, along: Along = None, threads: Optional[int] = None, progress: Progress = None,
              **keys: Any) -> Branch:
         """The branch through the symmetric image of this orbit, under the symmetry that the model declares."""
-        along, keys = separated("continue", along, keys, self._run._model)
+        along, keys = separated("continue", along, keys, self._run._model, "twin()")
         along = self._along_as_before() if along is None else along
         return self._child("continue", {"along": along, **keys}, "twin()", Ways(threads, progress), "twin")
 
+    @interruptible()
     def image(self, *, threads: Optional[int] = None, progress: Progress = None) -> Orbit:
         """The symmetric image of this orbit, under the symmetry that the model declares."""
         return self._child("orbit", {}, "image()", Ways(threads, progress), "twin")
@@ -125,14 +130,14 @@ class Point(PointAnalyses):
         if names:
             raise InputError(f"the bounds of {' and '.join(map(str, names))} are missing",
                              f"give them: curve({', '.join(f'{name}=(LEAST, GREATEST)' for name in names)})")
-        along, keys = separated("curve", along, keys, self._run._model)
+        along, keys = separated("curve", along, keys, self._run._model, "curve()")
         return self._child("curve", {"along": along, **keys}, "curve()", Ways(threads, progress), onto)
 
     @takes_keys_of("ladder", *_OF_SETTLING)
     def ladder(self, *, along: Along = None, threads: Optional[int] = None, progress: Progress = None,
                **keys: Any) -> Ladder:
         """The sequence of grazings that begins at this one, each with one contact more, up to the onset of chatter."""
-        along, keys = separated("ladder", along, keys, self._run._model)
+        along, keys = separated("ladder", along, keys, self._run._model, "ladder()")
         along = self._along_as_before() if along is None else along
         return self._child("ladder", {"along": along, **keys}, "ladder()", Ways(threads, progress))
 

@@ -69,6 +69,19 @@ def attended(progress: Progress, unit: str, kept: Callable[[], Any] = lambda: No
             raise
 
 
+@contextmanager
+def interruptible() -> Iterator[None]:
+    """Ctrl-C inside is Interrupted, also where nothing is computed yet: a decorator of functions that compute."""
+    try:
+        yield
+    except Interrupted:
+        raise
+    except KeyboardInterrupt as error:
+        if type(error) in (KeyboardInterrupt, Stopped):  # a handler of signals may raise its own kind
+            raise Interrupted() from None
+        raise
+
+
 def _caller(progress: Callable[..., Any], unit: str) -> Callable[..., None]:
     def tell(*state: Any) -> None:
         if unit == "time":

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Dict, Iterable, Iterator, List, NamedTuple, Optional, Tuple, Union
 
 from . import _arguments as checked, _graze
+from ._attributes import Fixed
 from ._errors import InputError, Interrupted
 from ._output import OwnFolder, Replacement
 from ._record_arguments import PROCESSING, READING, processing_words, table_words
@@ -157,7 +158,7 @@ class _RecordTables:
 _QUICKLY_READ = 20_000_000  # bytes
 
 
-class MeasuredRecord(_RecordTables):
+class MeasuredRecord(Fixed, _RecordTables):
     """A table of measured channels against time.
 
     `read_record(path)` reads one; `MeasuredRecord(times, {"V": values}, units={"V": "V"})` makes one of arrays, which are
@@ -169,11 +170,16 @@ class MeasuredRecord(_RecordTables):
     at each time, and times rise.
     """
 
+    name: str
+    channels: Tuple[str, ...]
+    units: Dict[str, str]
+    time_unit: str
+
     def __init__(self, times: Any, channels: Any, *, units: Optional[Mapping[str, str]] = None, time_unit: str = "",
                  name: str = "record") -> None:
         if not isinstance(channels, Mapping):
             raise InputError(f"channels are a {type(channels).__name__}", "give a dict: name -> values")
-        units = units or {}
+        units = {} if units is None else checked.a_dict(units, "units", '{"V": "V"}')
         for one in units:
             if one not in channels:
                 raise InputError(f"there is no channel {one!r} for the unit", f"there are {', '.join(map(str, channels))}")
@@ -204,10 +210,10 @@ class MeasuredRecord(_RecordTables):
         self._samples: Optional[Table] = None
         self._told = 0
         self._earlier = list(remarks)  # of the record that was pickled
-        self.name: str = core.name
-        self.channels: Tuple[str, ...] = tuple(name for name, _ in core.channels)
-        self.units: Dict[str, str] = dict(core.channels)
-        self.time_unit: str = core.time[1]
+        self.name = core.name
+        self.channels = tuple(name for name, _ in core.channels)
+        self.units = dict(core.channels)
+        self.time_unit = core.time[1]
         self._tell_remarks()
 
     def _tell_remarks(self) -> None:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import functools
 import itertools
 import os
-import tempfile
 import threading
 import weakref
 import zlib
-from typing import Any, Dict, Iterable, List, Optional, Set, Tuple
+from contextlib import contextmanager
+from typing import Any, Dict, Iterable, Iterator, List, Optional, Set, Tuple
 
 from . import _graze
 from ._computing import Ways, carried_out
@@ -21,11 +21,11 @@ from ._output import OwnFolder, writing
 @functools.lru_cache(maxsize=None)
 def _empty_file() -> bytes:
     """A result file without runs. To copy it is quicker than to make one, for which SQLite waits for the disk."""
-    with tempfile.TemporaryDirectory(prefix="graze-") as folder:
-        path = os.path.join(folder, "empty.sqlite")
-        _graze.ResultFile(path, write=True)
-        with open(path, "rb") as file:
-            return file.read()
+    folder = OwnFolder()
+    path = os.path.join(folder.path, "empty.sqlite")
+    _graze.ResultFile(path, write=True)
+    with open(path, "rb") as file:
+        return file.read()
 
 
 def _write_temporary(path: str, contents: bytes) -> None:
@@ -67,10 +67,20 @@ class Results:
                 self._handle = _graze.ResultFile(self.path, write=False)
             return self._handle
 
-    def read(self, what: str, *arguments: Any, **keys: Any) -> Any:
-        """Calls a function that reads the file; one thread at a time does."""
+    @contextmanager
+    def reading(self) -> Iterator[Any]:
+        """The file, while it is read; one thread at a time does."""
         with self._reading:
-            return getattr(self.file, what)(*arguments, **keys)
+            try:
+                yield self.file
+            except UnicodeDecodeError:
+                raise FileError(f"{self.path}: the file is damaged: it has texts that are not in UTF-8",
+                                "make it again, or take a copy") from None
+
+    def read(self, what: str, *arguments: Any, **keys: Any) -> Any:
+        """Calls a function that reads the file."""
+        with self.reading() as file:
+            return getattr(file, what)(*arguments, **keys)
 
     def model_of(self, text: str) -> Any:
         """The compiled part of the model of a run, not to be changed. Each text is read once."""
@@ -88,17 +98,17 @@ class Results:
     def _copy_into(self, path: str, names: Iterable[str] = ()) -> None:
         file = _graze.ResultFile(path, write=True)
         chosen = list(names)
-        with self._reading:
-            file.take_runs(self.file, chosen)
-            _graze.Study.stored(file if chosen else self.file).store(file)
+        with self.reading() as own:
+            file.take_runs(own, chosen)
+            _graze.Study.stored(file if chosen else own).store(file)
 
     def contents(self) -> bytes:
-        with tempfile.TemporaryDirectory(prefix="graze-") as folder:
-            path = os.path.join(folder, "copy.sqlite")
-            _write_temporary(path, _empty_file())
-            self._copy_into(path)
-            with open(path, "rb") as file:
-                return file.read()
+        folder = OwnFolder()
+        path = os.path.join(folder.path, "copy.sqlite")
+        _write_temporary(path, _empty_file())
+        self._copy_into(path)
+        with open(path, "rb") as file:
+            return file.read()
 
     def _forked(self) -> None:
         # A connection must not be used, and not even be closed, by two processes.
@@ -196,8 +206,8 @@ class Store(Results):
             known = self._taken.setdefault(run._store, {})
             if run.name not in known:
                 self._own()
-                with run._store._reading:
-                    names = self.writer.take_runs(run._store.file, [run.name])
+                with run._store.reading() as file:
+                    names = self.writer.take_runs(file, [run.name])
                 self._study = None
                 known.update(names)
                 for name, text in run._store.runs.items():

@@ -6,14 +6,14 @@ import os
 import re
 from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Optional, Tuple, Type, Union
 
-from . import _graze
-from ._arguments import path_of
+from . import _arguments as checked, _graze
+from ._attributes import Fixed
 from ._computing import Ways
 from ._errors import Error, InputError, relocated
 from ._keywords import RunText, study_text, toml_key, toml_value
 from ._model import Model
 from ._output import Path
-from ._progress import Progress
+from ._progress import Progress, interruptible
 from ._results import Results, Store
 from ._table import Table
 from ._written_study import write_study
@@ -26,7 +26,7 @@ Runs = Union["Run", Iterable["Run"]]
 """A run, or several."""
 
 
-class Run:
+class Run(Fixed):
     """A run and its results.
 
     `name` and `kind`; `status`: "complete", "unfinished" or "failed"; `points` and `samples` are tables, `table(what)` is
@@ -35,6 +35,8 @@ class Run:
     """
 
     kind = ""
+    name: str
+    report: Optional[Dict[str, Any]]
     _kinds: Dict[str, Type[Run]] = {}  # of all classes of runs
 
     def __init_subclass__(cls) -> None:
@@ -44,7 +46,7 @@ class Run:
     def __init__(self, store: Results, name: str) -> None:
         self._store = store
         self.name = name
-        self.report: Optional[Dict[str, Any]] = None
+        self.report = None
         self._kept: Optional[Dict[str, Any]] = None  # record of a complete run, which does not change
 
     @property
@@ -95,12 +97,13 @@ class Run:
         label, direction: only points with this label (of a branch also of this type), or of this direction. Raises
         InputError, which names the tables, for another word.
         """
-        return Table(*self._store.read("table", what, [self.name], label=label, direction=direction))
+        words = {"label": checked.text(label, "label"), "direction": checked.text(direction, "direction")}
+        return Table(*self._store.read("table", checked.text(what, "what"), [self.name], **words))
 
     def query(self, sql: str) -> Table:
         """Rows of an SQL query in the result file, whose tables docs/result-file.md describes. InputError for what is no
         query, or changes something."""
-        return Table(*self._store.read("query", sql, [self.name]))
+        return Table(*self._store.read("query", checked.text(sql, "sql"), [self.name]))
 
     @property
     def points(self) -> Table:
@@ -148,6 +151,8 @@ class Run:
                 raise InputError(f"plot() has no key '{key}'", remedy, f"plot(), {key}")
         others, above = _drawn_runs(also, "also"), _drawn_runs(over, "over")
         store, (name, *names) = self._together([self, *others, *above])
+        for key in keys:
+            checked.text(key, "plot()")
         shown = {"runs": [name, *names[:len(others)]], "over": names[len(others):] or None, **keys}
         if isinstance(keys.get("y"), str):
             shown["y"] = [keys["y"]]
@@ -160,8 +165,8 @@ class Run:
             return f"plot(), {argument}" if argument else "plot()"
 
         try:
-            with store._reading:
-                return _graze.picture(store.file, "\n".join(lines) + "\n", "plot()")[0]
+            with store.reading() as file:
+                return _graze.picture(file, "\n".join(lines) + "\n", "plot()")[0]
         except InputError as error:
             raise relocated(error, place_of)
 
@@ -178,6 +183,7 @@ class Run:
         """What is drawn in notebooks, where that is quick."""
         return self._picture({"size": 110}) if self._record["points"] <= 5000 else None
 
+    @interruptible()
     def resume(self, *, threads: Optional[int] = None, executor: Any = None, progress: Progress = None) -> Run:
         """Goes on with a run that was interrupted, or whose executor lost its workers: what was computed is kept, and the
         results are those of a run without interruption, to the last bit. Returns the run."""
@@ -206,8 +212,8 @@ class Run:
 
     def save(self, path: Path) -> None:
         """Writes a result file with this run and those that it follows from; `read_results` reads it, and `graze` too.
-        FileError if the file is there already."""
-        self._store.copy(path_of(path, "a result file"), [self.name])
+        FileError if the file is there already. An empty file NAME.lock remains beside it: it keeps other writers out."""
+        self._store.copy(checked.path_of(path, "a result file"), [self.name])
 
     def __copy__(self) -> Run:
         other = type(self)(self._store, self.name)
@@ -234,8 +240,9 @@ def _restored_run(of: Type[Run], store: Results, name: str, report: Optional[Dic
 
 
 def _drawn_runs(runs: Any, key: str) -> List[Run]:
+    if runs is None:
+        return []
     listed = [runs] if isinstance(runs, Run) or not hasattr(runs, "__iter__") else list(runs)
-    listed = [run for run in listed if run is not None]
     for run in listed:
         if not isinstance(run, Run):
             raise InputError(f"{key} has an object of type {type(run).__name__}", "give runs", f"plot(), {key}")
@@ -246,6 +253,15 @@ class Ensemble(Run):
     """Motions of given length from many initial states or parameters."""
 
     kind = "simulate"
+
+    def _picture(self, keys: Dict[str, Any], over: Runs = (), also: Runs = ()) -> Any:
+        if (keys.get("title") is None and keys.get("at") is None and keys.get("x") is None
+                and keys.get("kind") in (None, "history", "portrait")):
+            points = self.points
+            if len(points):  # the last motion is drawn
+                values = (f"{name} = {points[name][-1]:.6g} {unit}".rstrip() for name, unit in self._record["coordinates"])
+                keys = {**keys, "title": ", ".join(values) or None}
+        return super()._picture(keys, over, also)
 
 
 class Sweep(Run):

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from typing import Any, Optional
 
+from . import _arguments as checked
 from ._branch import Branch, Curve, Ladder, Orbit
 from ._calls import Along, Source, compiled_model, computed, separated
 from ._computing import Ways
@@ -41,7 +41,7 @@ def sweep(model: Source, *, threads: Optional[int] = None, executor: Any = None,
           **keys: Any) -> Sweep:
     """What motions settle on as a parameter changes step by step: `sweep(model, vary={"omega": (2, 3, 101)})`.
 
-    model, vary: see `ensemble`.
+    model, vary: see `ensemble`. A list of values is taken in rising order, as in studies; `direction` turns it round.
     executor: a concurrent.futures.Executor whose workers compute, in place of threads; the results are the same.
 
     Returns a Sweep. Raises StudyError and Interrupted as `ensemble`.
@@ -85,7 +85,7 @@ def follow(model: Source, *, along: Along = None, at: At = None, onto: Optional[
     Returns a Branch. Raises StudyError, RunFailed if no orbit is found, and Interrupted, whose `run` has the orbits found
     so far.
     """
-    along, keys = separated("continue", along, keys, compiled_model(model, "follow()"))
+    along, keys = separated("continue", along, keys, compiled_model(model, "follow()"), "follow()")
     return computed(Branch, model, {"along": along, "at": at, "onto": onto, **keys}, "follow()", Ways(threads, progress))
 
 
@@ -98,7 +98,7 @@ def curve(point: Source, *, along: Along = None, onto: Optional[str] = None, thr
 
     Returns a Curve. Raises StudyError and RunFailed.
     """
-    along, keys = separated("curve", along, keys, compiled_model(point, "curve()"))
+    along, keys = separated("curve", along, keys, compiled_model(point, "curve()"), "curve()")
     return computed(Curve, point, {"along": along, "onto": onto, **keys}, "curve()", Ways(threads, progress))
 
 
@@ -112,7 +112,7 @@ def ladder(point: Source, *, along: Along = None, threads: Optional[int] = None,
 
     Returns a Ladder. Raises StudyError and RunFailed.
     """
-    along, keys = separated("ladder", along, keys, compiled_model(point, "ladder()"))
+    along, keys = separated("ladder", along, keys, compiled_model(point, "ladder()"), "ladder()")
     if along is None and isinstance(point, Point):
         along = point._along_as_before()
     return computed(Ladder, point, {"along": along, **keys}, "ladder()", Ways(threads, progress))
@@ -132,7 +132,7 @@ def record(model: Optional[Model] = None, *, folder: Path = "", threads: Optiona
     if model is not None and not isinstance(model, Model):
         raise TypeError(f"record() needs a graze.Model or none, not {type(model).__name__}")
     return computed(Record, model, keys, "record()", Ways(threads, progress),
-                    folder if isinstance(folder, OwnFolder) else os.fspath(folder))
+                    folder if isinstance(folder, OwnFolder) or folder == "" else checked.path_of(folder, "a folder", "folder"))
 
 
 @takes_keys_of("identify")

@@ -5,10 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _arguments as checked, _graze
+from ._arguments import near
+from ._attributes import Fixed
 from ._errors import InputError, Interrupted, WrongType
 from ._model import Model
 from ._motion import Motion, Names
-from ._progress import Progress, telling
+from ._progress import Progress, interruptible, telling
 
 if TYPE_CHECKING:
     import numpy
@@ -23,7 +25,7 @@ State = Union[Mapping[str, float], Sequence[float], "numpy.ndarray[Any, Any]"]
 _MOST_ROWS = 10_000_000  # of samples, as in the program
 
 
-class Simulation:
+class Simulation(Fixed):
     """A model made ready to be simulated as often as wanted: `run` then costs some microseconds.
 
     sections, extrema: names of sections whose passages, and expressions whose extrema, are located.
@@ -37,16 +39,18 @@ class Simulation:
     The model is copied: later changes of it have no effect. Threads may share a simulation. Raises InputError.
     """
 
+    model: Model
+
     def __init__(self, model: Model, *, sections: Names = (), extrema: Names = (), quantities: Names = (),
                  minima: bool = False, tolerance: float = 1e-12, order: int = 0, largest_step: Value = 0.0,
                  step_limit: int = 100_000_000, contacts_at_once: int = 100, touch: float = 0.0) -> None:
         if not isinstance(model, Model):
             raise TypeError(f"a simulation needs a graze.Model, not {type(model).__name__}")
-        self.model: Model = model.with_()
+        self.model = model.with_()
         step = self.model._number(largest_step, "largest_step") if checked.is_expression(largest_step) else largest_step
         self._settings: Dict[str, Any] = {
             "sections": checked.names(sections, "sections"), "extrema": checked.names(extrema, "extrema"),
-            "quantities": checked.names(quantities, "quantities"), "minima": bool(minima),
+            "quantities": checked.names(quantities, "quantities"), "minima": checked.truth(minima, "minima"),
             "tolerance": checked.number(tolerance, "tolerance"), "order": checked.whole(order, "order", 0, 1000),
             "largest_step": checked.number(step, "largest_step", finite=False),
             "step_limit": checked.whole(step_limit, "step_limit", 0, 2**63 - 1),
@@ -62,8 +66,8 @@ class Simulation:
             progress: Progress = None) -> Motion:
         """Computes one motion; the arguments are those of `simulate`. set: other values of parameters."""
         asked: Dict[str, Any] = {}
-        if set:
-            asked["set"] = [(str(name), checked.number(value, f"set, {name}")) for name, value in _items(set, "set")]
+        if set is not None:
+            asked["set"] = checked.settings(set)
         if time is not None:
             asked["time"] = self._positive(time, "time", asked)
         if after is not None:
@@ -74,8 +78,8 @@ class Simulation:
             asked["periods"] = checked.whole(periods, "periods", 1, 2**31 - 1)
         if contacts is not None:
             asked["contacts"] = checked.whole(contacts, "contacts", 1, 2**31 - 1)
-        if skip is not None and skip != 0:
-            asked["skip"] = checked.whole(skip, "skip", 1, 2**31 - 1)
+        if skip is not None and checked.whole(skip, "skip", 0, 2**31 - 1):
+            asked["skip"] = checked.whole(skip, "skip")
         if phase is not None:
             asked["phase"] = checked.text(phase, "phase")
         if (samples is not None) + (every is not None) + (at is not None) > 1:
@@ -86,9 +90,10 @@ class Simulation:
                 raise InputError("one sample has no distance to the next", "give 2 or more, or 0 for none", "samples")
         if at is not None:
             asked["at"] = _times(at, asked.get("time"))
-        if derivatives:
-            asked["derivatives"] = self._directions(derivatives)
-        if dense:
+        directions = self._directions(derivatives)
+        if directions:
+            asked["derivatives"] = directions
+        if checked.truth(dense, "dense"):
             asked["dense"] = True
         if events is not None:
             asked["events"] = checked.names(events, "events")
@@ -111,7 +116,7 @@ class Simulation:
 
     def _positive(self, value: Value, name: str, asked: Dict[str, Any]) -> float:
         if checked.is_expression(value):
-            value = self._core.value_of(str(value), asked.get("set", []), name)
+            value = self._core.value_of(checked.text(str(value), name), asked.get("set", []), name)
         return checked.number(value, name, above=0)
 
     def _directions(self, names: Names) -> List[str]:
@@ -124,6 +129,11 @@ class Simulation:
                 raise InputError(f"the model has no state or independent parameter {name!r}",
                                  f"it has {', '.join(known)}", "derivatives")
         return chosen
+
+    def _instead(self, name: str) -> str:
+        if name in self._settings:
+            return f"give it when the simulation is made: Simulation(model, {name}=...)"
+        return near(name, ["model", *self._settings])
 
     def __repr__(self) -> str:
         return f"<Simulation of {self.model.name}>"
@@ -142,6 +152,7 @@ def _simulation_again(model: Model, settings: Dict[str, Any]) -> Simulation:
     return Simulation(model, **settings)
 
 
+@interruptible()
 def simulate(model: Model, *, time: Optional[Value] = None, periods: Optional[int] = None,
              contacts: Optional[int] = None, after: Optional[Value] = None, skip: Optional[int] = None,
              phase: Optional[str] = None, samples: Optional[int] = None, every: Optional[Value] = None, at: Any = None,
@@ -160,7 +171,8 @@ def simulate(model: Model, *, time: Optional[Value] = None, periods: Optional[in
     samples, every, at: how many samples are taken at equal distances (500; 0 for none), or at which distance, or at
         which times, counted from the beginning of what is shown.
     derivatives: names of initial states and independent parameters, or "all", with respect to which derivatives of the
-        last state are computed.
+        last state are computed. A derivative by a parameter is that with the initial state held, also where the initial
+        state follows from the parameter.
     dense: keep the polynomials of all steps, so that `motion(t)` gives the states at any time.
     events: names of events: only their contacts are shown and counted; an empty list for none.
     set: other values of parameters, a dict. state (or from_): initial values, a dict by name or a sequence of all; mode:
@@ -186,20 +198,14 @@ def simulate(model: Model, *, time: Optional[Value] = None, periods: Optional[in
                           set=set, state=state, from_=from_, mode=mode, progress=progress)
 
 
-def _items(values: Any, argument: str) -> List[Tuple[Any, Any]]:
-    if not hasattr(values, "items"):
-        raise checked.wrong(values, argument, "is no dict", "give a dict of names and numbers", WrongType)
-    return list(values.items())
-
-
 def _times(at: Any, end: Optional[float]) -> List[float]:
-    import numpy
-
-    times = numpy.asarray(at, dtype=float)
+    times = checked.numbers(at, "at")
     if times.ndim != 1:
         raise InputError(f"the times have {times.ndim} dimensions", "give a list", "at")
     if len(times) == 0:
         raise InputError("there are no times", "give one or more", "at")
+    if len(times) > _MOST_ROWS:
+        raise InputError(f"there are {len(times)} times", f"give {_MOST_ROWS} or fewer", "at")
     if end is not None and times[-1] > end:
         raise InputError(f"the time {times[-1]} is after the end of the motion at {end}", "give a later end", "at")
     return list(map(float, times))
@@ -213,6 +219,7 @@ def _state(model: Model, state: Any, changed: Any = None) -> List[float]:
                 raise InputError(f"the model has no state {name!r}", f"it has {', '.join(values)}", "state")
             values[name] = checked.number(value, f"state, {name}")
         return list(values.values())
-    if isinstance(state, (str, bytes)):
-        raise checked.wrong(state, "state", "is a text", "give a dict, or a list of numbers", WrongType)
+    if isinstance(state, (str, bytes)) or not hasattr(state, "__iter__") or getattr(state, "ndim", 1) == 0:
+        raise checked.wrong(state, "state", "does not say the values of states",
+                            f"give a dict, or a list of numbers: of {', '.join(model.initial)}", WrongType)
     return [checked.number(value, "state") for value in state]

@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Optional,
 
 from . import _arguments as checked, _graze
 from ._analysis import called
+from ._attributes import Fixed
 from ._computing import Ways, carried_out
 from ._errors import InputError, Interrupted, StudyError, WorkersLost, as_kind
+from ._expressions import is_plain
 from ._model import Model
 from ._output import Path, Replacement, made_folder, write_file
-from ._progress import Progress
+from ._progress import Progress, interruptible
 from ._results import Results, Store, StoredFile
 from ._run import Run
 from ._table import Table
@@ -21,12 +23,15 @@ if TYPE_CHECKING:
     from ._plot import Figure
 
 
-class Study(Mapping):  # type: ignore[type-arg]
+class Study(Fixed, Mapping):  # type: ignore[type-arg]
     """The results of a study: a mapping from names of runs to runs. A file that is still being written shows what is
     there when it is asked.
 
     `reports` tells what `run_study` did for each run. Studies can be copied and pickled, with all results.
     """
+
+    path: str
+    reports: List[Dict[str, Any]]
 
     def __init__(self, path: Path, *, _store: Any = None) -> None:
         if _store is None:
@@ -34,15 +39,15 @@ class Study(Mapping):  # type: ignore[type-arg]
             _store = StoredFile(os.path.join(file, "results.sqlite") if os.path.isdir(file) else file)
         self._store = _store
         self.path = _store.path
-        self.reports: List[Dict[str, Any]] = []
+        self.reports = []
 
     @property
     def _study(self) -> Any:
-        with self._store._reading:
-            return _graze.Study.stored(self._store.file)
+        with self._store.reading() as file:
+            return _graze.Study.stored(file)
 
     def __getitem__(self, name: str) -> Run:
-        record = self._store.read("run", name) if isinstance(name, str) else None
+        record = self._store.read("run", name) if isinstance(name, str) and is_plain(name) else None
         if record is None:
             raise KeyError(f"there is no run {name!r}; there are {', '.join(self)}")
         return Run._kinds.get(record["kind"], Run)(self._store, name)
@@ -65,7 +70,7 @@ class Study(Mapping):  # type: ignore[type-arg]
 
     def query(self, sql: str) -> Table:
         """Rows of an SQL query, whose tables docs/result-file.md describes."""
-        return Table(*self._store.read("query", sql, []))
+        return Table(*self._store.read("query", checked.text(sql, "sql"), []))
 
     @property
     def format(self) -> int:
@@ -97,14 +102,14 @@ class Study(Mapping):  # type: ignore[type-arg]
 
     def _picture(self, picture: str) -> Any:
         study = self._study
-        if picture not in study.pictures:
+        if checked.text(picture, "picture") not in study.pictures:
             known = ", ".join(study.pictures)
             raise InputError(f"the study has no picture {picture!r}", f"it has {known}" if known else "it has none", "plot()")
         return self._drawn(study, picture)
 
     def _drawn(self, study: Any, picture: str) -> Any:
-        with self._store._reading:
-            return study.figure(self._store.file, picture)
+        with self._store.reading() as file:
+            return study.figure(file, picture)
 
     @property
     def tables(self) -> Tuple[str, ...]:
@@ -113,8 +118,8 @@ class Study(Mapping):  # type: ignore[type-arg]
 
     def table(self, name: str) -> Table:
         """A table of the study, by its name."""
-        with self._store._reading:
-            return Table(*self._study.table(self._store.file, name))
+        with self._store.reading() as file:
+            return Table(*self._study.table(file, checked.text(name, "name")))
 
     def write_tables(self, folder: Path) -> List[str]:
         """Writes all tables of the study into a folder, as the program does: CSV with all digits. Existing files are
@@ -122,8 +127,8 @@ class Study(Mapping):  # type: ignore[type-arg]
         study, place = self._study, made_folder(folder)
         paths = [os.path.join(place, f"{name}.csv") for name in study.tables]
         for name, path in zip(study.tables, paths):
-            with self._store._reading:
-                text = study.table_text(self._store.file, name)
+            with self._store.reading() as file:
+                text = study.table_text(file, name)
             write_file(path, text)
         return paths
 
@@ -135,8 +140,9 @@ class Study(Mapping):  # type: ignore[type-arg]
 
         from ._plot import draw
 
+        ending = checked.text(format, "format")
         study, place = self._study, made_folder(folder)
-        paths = [os.path.join(place, f"{name}.{format}") for name in study.pictures]
+        paths = [os.path.join(place, f"{name}.{ending}") for name in study.pictures]
         for name, path in zip(study.pictures, paths):
             with pyplot.ioff():
                 figure = numpy.atleast_1d(draw(self._drawn(study, name))).ravel()[0].figure
@@ -173,6 +179,7 @@ def read_results(path: Path) -> Study:
     return Study(path)
 
 
+@interruptible()
 def run_study(study: Path, *, output: Optional[Path] = None, only: Union[str, Iterable[str]] = (),
               set: Optional[Mapping[str, float]] = None, models: Optional[Mapping[str, Model]] = None,
               threads: Optional[int] = None, executor: Any = None, progress: Progress = None) -> Study:
@@ -190,6 +197,7 @@ def run_study(study: Path, *, output: Optional[Path] = None, only: Union[str, It
     be read, and Interrupted, whose `run` has the results so far: the same call goes on from there, to the same bits.
     """
     ways = Ways(threads, progress, executor)
+    chosen = checked.names(only, "only")
     read = _read_study(study, set, models)
     store: Optional[Store] = None
     if output is None:
@@ -204,7 +212,7 @@ def run_study(study: Path, *, output: Optional[Path] = None, only: Union[str, It
         return Study(path, _store=store)
 
     try:
-        reports = carried_out(read, file, [only] if isinstance(only, str) else list(only), ways)
+        reports = carried_out(read, file, chosen, ways)
     except KeyboardInterrupt:
         raise Interrupted(results()) from None
     except WorkersLost as error:
@@ -219,11 +227,15 @@ def run_study(study: Path, *, output: Optional[Path] = None, only: Union[str, It
 
 def _read_study(study: Any, values: Optional[Mapping[str, float]], models: Optional[Mapping[str, Model]]) -> Any:
     try:
-        given = [(str(name), checked.number(value, f"set, {name}")) for name, value in (values or {}).items()]
+        given = checked.settings({} if values is None else values)
+        named = {} if models is None else checked.a_dict(models, "models", '{"name": model}')
+        for name, model in named.items():
+            if not isinstance(model, Model):
+                raise checked.wrong(model, f"models, {name}", "is no model", "give a graze.Model")
         if isinstance(study, str) and "\n" in study:
-            cores = {name: model._core for name, model in (models or {}).items()}
-            return _graze.Study.parsed(study, "study", given, cores)
-        if models:
+            cores = {checked.text(name, "models"): model._core for name, model in named.items()}
+            return _graze.Study.parsed(checked.text(study, "study"), "study", given, cores)
+        if named:
             raise StudyError("models are given for a study that is no text", "give the text of the study")
         return _graze.Study.loaded(checked.path_of(study, "a study"), given)
     except InputError as error:
@@ -247,9 +259,9 @@ def points(results: Any, *, run: Union[str, Sequence[str]] = (), type: Union[str
     """
     if not isinstance(results, (Run, Study)):
         raise TypeError(f"points() needs a run or the results of a study, not {results.__class__.__name__}")
-    with called("points()"), results._store._reading:
-        runs, types = ([one] if isinstance(one, str) else [str(item) for item in one] for one in (run, type))
+    with called("points()"), results._store.reading() as file:
+        runs, types = checked.names(run, "run"), checked.names(type, "type")
         if not runs and isinstance(results, Run):
             runs = [results.name]
-        return Table(*_graze.listed_points(results._store.file, runs=runs, types=[one.upper() for one in types],
+        return Table(*_graze.listed_points(file, runs=runs, types=[one.upper() for one in types],
                                            all=checked.truth(all, "all")))

@@ -4,27 +4,33 @@ from __future__ import annotations
 
 import html
 from collections.abc import Mapping
+from operator import index
 from typing import Any, Dict, Iterable, Iterator, List, Sequence, Tuple
 
-from ._errors import InputError
+from ._arguments import wrong
+from ._attributes import Fixed
+from ._errors import InputError, WrongType
 
 _SHOWN = 10  # rows at either end, in notebooks
 
 
-class Table(Mapping):  # type: ignore[type-arg]
+class Table(Fixed, Mapping):  # type: ignore[type-arg]
     """Named columns of equal length.
 
     Numbers are numpy arrays (NaN where one is missing), texts are lists (None where one is missing). `table["x"]` is a
     column, `table.x` too where the name is an identifier and no method; `len(table)` is the number of rows, `table.units`
-    a dict of the units that are known, `table.columns` the names. A column that is kept lives on without the table.
+    a dict of the units that are known, `table.columns` the names. A column that is kept lives on without the table. Arrays
+    can be read only: copy them to change them, `x = table["x"].copy()`.
 
     `table[2:5]` and `table[table.x > 0]` are tables of some of the rows; `records()` goes through the rows.
     """
 
+    units: Dict[str, str]
+
     def __init__(self, names: Iterable[str], columns: Iterable[Any], units: Sequence[str] = ()) -> None:
         distinct = _distinct(names)
-        self._columns: Dict[str, Any] = dict(zip(distinct, columns))
-        self.units: Dict[str, str] = {name: unit for name, unit in zip(distinct, units) if unit}
+        self._columns: Dict[str, Any] = dict(zip(distinct, map(_protected, columns)))
+        self.units = {name: unit for name, unit in zip(distinct, units) if unit}
         counts = {len(column) for column in self._columns.values()}
         if len(counts) > 1:
             raise InputError("the columns are of different lengths", "give columns of equal length")
@@ -72,6 +78,12 @@ class Table(Mapping):  # type: ignore[type-arg]
             return self._columns[name]
         except KeyError:
             raise AttributeError(f"the table has no column {name!r}") from None
+
+    def _instead(self, name: str) -> str:
+        return "tables are not changed: make a DataFrame of it by to_pandas()"
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return Table, (list(self), list(self.values()), [self.units.get(name, "") for name in self])
 
     def __dir__(self) -> List[str]:
         return [*super().__dir__(), *(name for name in self._columns if name.isidentifier())]
@@ -129,8 +141,15 @@ class Table(Mapping):  # type: ignore[type-arg]
         return Table(self._columns, columns, [self.units.get(name, "") for name in self])
 
     def record(self, number: int) -> Dict[str, Any]:
-        """One row: a dict of Python's numbers and texts. IndexError where there is none."""
-        return {name: _plain(column[number]) for name, column in self._columns.items()}
+        """One row, counted from 0, or from -1 backwards: a dict of Python's numbers and texts. IndexError where there is
+        none."""
+        try:
+            row = range(len(self))[index(number)]
+        except TypeError:
+            raise wrong(number, "number", "is no number of a row", f"give one below {len(self)}", WrongType) from None
+        except IndexError:
+            raise IndexError(f"there is no row {number}; there are {len(self)}") from None
+        return {name: _plain(column[row]) for name, column in self._columns.items()}
 
     def records(self) -> Iterator[Dict[str, Any]]:
         """The rows one after the other, each a dict of Python's numbers and texts."""
@@ -151,7 +170,7 @@ class Table(Mapping):  # type: ignore[type-arg]
         import xarray
 
         variables = {
-            name: ("row", numpy.asarray(column, dtype=object if isinstance(column, list) else None),
+            name: ("row", numpy.array(column, dtype=object if isinstance(column, list) else None),
                    {"units": self.units[name]} if name in self.units else {})
             for name, column in self._columns.items()
         }
@@ -175,6 +194,14 @@ class Table(Mapping):  # type: ignore[type-arg]
             lines.append("<tr>" + "".join(f"<td>{one}</td>" for one in cells) + "</tr>")
         count = f"{total} {'row' if total == 1 else 'rows'}"
         return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(lines)}</tbody></table><p>{count}</p>"
+
+
+def _protected(column: Any) -> Any:
+    """The same column, for reading only: results are kept, and nobody is to change them for all."""
+    if hasattr(column, "setflags"):
+        column = column.view()
+        column.setflags(write=False)
+    return column
 
 
 def _distinct(names: Iterable[str]) -> List[str]:

@@ -7,6 +7,7 @@ from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
 from ._analysis import DrawnResult, called
 from . import _arguments as checked
+from ._attributes import Fixed
 from ._errors import InputError, OrderError
 from ._table import Table
 
@@ -20,7 +21,7 @@ class LocatedSolution(NamedTuple):
     problem: str
 
 
-class Tolerance(DrawnResult):
+class Tolerance(Fixed, DrawnResult):
     """How a special point depends on the other parameters, as `graze tolerance` tells it.
 
     `parameter`, `unit` and `value` say what follows from the others. `derivatives` is the table of all others with the
@@ -32,17 +33,27 @@ class Tolerance(DrawnResult):
     ("found", "inadmissible", "failed"); `problems` counts why devices were not found. Otherwise these are None.
     """
 
+    derivatives: Table
+    parameter: str
+    unit: str
+    value: float
+    statistics: Optional[Table]
+    devices: Optional[Table]
+    problems: Optional[Dict[str, int]]
+    seed: Optional[int]
+    confidence: Optional[float]
+
     def __init__(self, core: Any, seed: Optional[int]) -> None:
         self._core = core
-        self.parameter: str = core.name
-        self.unit: str = core.unit
-        self.value: float = core.value
+        self.parameter = core.name
+        self.unit = core.unit
+        self.value = core.value
         self.derivatives = Table(*core.derivatives())
-        self.statistics: Optional[Table] = None
-        self.devices: Optional[Table] = None
-        self.problems: Optional[Dict[str, int]] = None
-        self.seed: Optional[int] = None
-        self.confidence: Optional[float] = None
+        self.statistics = None
+        self.devices = None
+        self.problems = None
+        self.seed = None
+        self.confidence = None
         self._statistics: Dict[str, Tuple[float, float, float]] = {}
         if core.has_yield:
             self.statistics = Table(*core.statistics())
@@ -118,14 +129,14 @@ def tolerance_texts(vary: Any) -> List[str]:
         if isinstance(size, (tuple, list)):
             if len(size) != 2:
                 raise checked.wrong(size, "vary", "is no size", 'give a size, or a size and "uniform" or "normal"')
-            size, spread = size[0], f":{size[1]}"
-        texts.append(f"{name}={checked.expression(size, 'vary')}{spread}")
+            size, spread = size[0], f":{checked.text(size[1], 'vary')}"
+        texts.append(f"{checked.text(str(name), 'vary')}={checked.expression(size, 'vary')}{spread}")
     return texts
 
 
 def interval_text(within: Any) -> str:
     if within is None or isinstance(within, str):
-        return within or ""
+        return checked.text(within or "", "within")
     if not isinstance(within, (tuple, list)) or len(within) != 2:
         raise checked.wrong(within, "within", "is no interval", "give (low, high), of which one may be None")
     low, high = ("" if one is None else checked.expression(one, "within") for one in within)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Callable, Dict, List, Optional, Tuple
 
 from . import _arguments as checked, _graze
 from ._analysis import DrawnResult
+from ._attributes import Fixed
 from ._errors import InputError
 from ._progress import Progress, attended
 from ._table import Table
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from ._analyses import PointAnalyses
 
 
-class Trips(DrawnResult):
+class Trips(Fixed, DrawnResult):
     """How long trips take, as `graze trip` tells it.
 
     `table` has a row for each overshoot, rate, amplitude or level of noise, and the columns of `graze trip`;
@@ -27,21 +27,35 @@ class Trips(DrawnResult):
     `wanted` is how many rows were asked for; fewer are there after an interruption.
     """
 
+    table: Table
+    parameter: str
+    unit: str
+    kind: str
+    end: str
+    value: float
+    cycle: float
+    side: int
+    speed: Optional[float]
+    coefficient: Optional[float]
+    rate: Optional[float]
+    unfinished: List[str]
+    wanted: int
+
     def __init__(self, core: Any, about: Dict[str, Any]) -> None:
         self._core = core
-        self.parameter: str = about["parameter"]
-        self.unit: str = about["unit"]
-        self.kind: str = about["kind"]
-        self.end: str = about["end"]
-        self.value: float = about["value"]
-        self.cycle: float = about["cycle"]
-        self.side: int = about["side"]
-        self.speed: Optional[float] = about["speed"]
-        self.coefficient: Optional[float] = about["coefficient"]
-        self.rate: Optional[float] = about["rate"]
+        self.parameter = about["parameter"]
+        self.unit = about["unit"]
+        self.kind = about["kind"]
+        self.end = about["end"]
+        self.value = about["value"]
+        self.cycle = about["cycle"]
+        self.side = about["side"]
+        self.speed = about["speed"]
+        self.coefficient = about["coefficient"]
+        self.rate = about["rate"]
         self.table = Table(*core.table())
-        self.unfinished: List[str] = core.unfinished()
-        self.wanted: int = core.wanted
+        self.unfinished = core.unfinished()
+        self.wanted = core.wanted
 
     def __getitem__(self, name: str) -> Any:
         return self.table[name]
@@ -131,18 +145,18 @@ class AskedTrips:
 
 def _end(until: Any) -> Optional[str]:
     if until is None or isinstance(until, str):
-        return until
+        return until if until is None else checked.text(until, "until")
     if not isinstance(until, (tuple, list)) or len(until) != 2:
         raise checked.wrong(until, "until", "does not say what ends trips", 'give "q=0.9", ("q", 0.9) or "end"')
-    return f"{until[0]}={checked.expression(until[1], 'until')}"
+    return f"{checked.text(str(until[0]), 'until')}={checked.expression(until[1], 'until')}"
 
 
 def _disturbance(given: Any) -> List[Tuple[str, str]]:
     if given is None:
         return []
-    if not isinstance(given, Mapping):
-        raise checked.wrong(given, "disturbance", "is no dict", 'give a dict, as {"x": 0.01}')
-    return [(str(name), checked.expression(value, "disturbance")) for name, value in given.items()]
+    given = checked.a_dict(given, "disturbance", '{"x": 0.01}')
+    return [(checked.text(str(name), "disturbance"), checked.expression(value, "disturbance"))
+            for name, value in given.items()]
 
 
 def check_together(**given: Any) -> None:

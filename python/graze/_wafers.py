@@ -7,6 +7,7 @@ import math
 import os
 from typing import TYPE_CHECKING, Any, Dict, List
 
+from ._attributes import Fixed
 from ._errors import InputError
 from ._facts import Facts
 from ._output import OwnFolder, Replacement, empty_folder, write_file
@@ -16,13 +17,20 @@ if TYPE_CHECKING:
     from ._layout import Layout
 
 
-class Wafers(Facts):
+class Wafers(Fixed, Facts):
     """Wafers of devices that were made by simulation.
 
     A mapping from the quantities of `facts` to their values: `wafers["yield"]`. `devices` is a table of all devices: where
     each lies, how it departs from the drawing, where it trips. `problems` is a dict of what prevents devices from tripping,
     and how many it concerns; `failed` says how many have no trip value that was found; `count` and `seed` are as asked.
     """
+
+    count: int
+    seed: int
+    facts: Table
+    devices: Table
+    failed: int
+    problems: Dict[str, int]
 
     def __init__(self, layout: Layout, core: Any, count: int, seed: int, folder: OwnFolder) -> None:
         self._layout, self._core, self._folder = layout, core, folder
@@ -32,8 +40,8 @@ class Wafers(Facts):
         self._control, self._unit, self._limits = core.control, core.unit, (core.least, core.greatest)
         self._csv = core.facts_csv(), core.devices_csv()
         self._report = ""  # once it is asked for
-        self.failed: int = core.failed
-        self.problems: Dict[str, int] = dict(core.problems)
+        self.failed = core.failed
+        self.problems = dict(core.problems)
 
     @property
     def report(self) -> str:
@@ -76,6 +84,8 @@ class Wafers(Facts):
         those as wanted are ringed. axes: one for each wafer. Returns them."""
         import numpy
 
+        from ._plot import plane_axes
+
         drawn, columns = self._drawn(), self._columns()
         if axes is None:
             from matplotlib import pyplot
@@ -83,7 +93,7 @@ class Wafers(Facts):
             rows = math.ceil(drawn / columns)
             _, axes = pyplot.subplots(rows, columns, figsize=(3.2 * columns, 3.2 * rows + 0.4), squeeze=False,
                                       layout="constrained")
-        axes = numpy.atleast_1d(axes).ravel()
+        axes = numpy.array(plane_axes(axes))
         if len(axes) < drawn:
             raise InputError(f"{len(axes)} axes were given, and there are {drawn} wafers", "give as many, or none")
         values = numpy.array([_number(value) for value in self.devices[self._control]])

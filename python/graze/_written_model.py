@@ -7,10 +7,11 @@ import re
 from collections.abc import Mapping
 from typing import Any, Dict, Iterator, List, Optional, Tuple
 
+from ._arguments import near
 from ._errors import Error, InputError, ModelError, as_kind, relocated
 from ._expressions import Condition, Expression, short
 from ._keywords import toml_text
-from ._model_arguments import a_dict, a_list, key_of, mistake, near, part_of
+from ._model_arguments import a_dict, a_list, key_of, mistake, part_of
 from ._model_lines import ModelLines
 from ._model_parts import Definition, Event, Jump, Mode, Parameter, Quantity, Section, State, Symmetry, Transition
 

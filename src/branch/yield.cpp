@@ -14,6 +14,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <mutex>
 #include <numbers>
 #include <numeric>
 
@@ -78,16 +79,27 @@ private:
     ThreadTeam team_;
 };
 
-/// Sets why devices were not found, the most frequent reason first.
-void set_problems(Yield& result, const std::vector<std::string>& problems) {
-    std::map<std::string, std::size_t> counts;
-    for (const std::string& problem : problems)
-        if (!problem.empty())
-            ++counts[problem];
-    result.problems.assign(counts.begin(), counts.end());
-    std::stable_sort(result.problems.begin(), result.problems.end(),
-                     [](const auto& a, const auto& b) { return a.second > b.second; });
-}
+/// Why devices were not found; from any thread.
+class Problems {
+public:
+    void add(const std::string& problem) {
+        if (problem.empty())
+            return;
+        const std::lock_guard lock(mutex_);
+        ++counts_[problem];
+    }
+    /// With the number of devices of each, the most frequent one first.
+    std::vector<std::pair<std::string, std::size_t>> sorted() const {
+        std::vector<std::pair<std::string, std::size_t>> result(counts_.begin(), counts_.end());
+        std::stable_sort(result.begin(), result.end(),
+                         [](const auto& a, const auto& b) { return a.second > b.second; });
+        return result;
+    }
+
+private:
+    std::mutex mutex_;
+    std::map<std::string, std::size_t> counts_;
+};
 
 /// Solves for all devices, by threads or elsewhere.
 ExaminedYield solve_all(const AskedDevices& devices, const YieldSettings& settings) {
@@ -96,10 +108,10 @@ ExaminedYield solve_all(const AskedDevices& devices, const YieldSettings& settin
     yield.nominal = devices.solver.value();
     yield.devices.resize(devices.count);
     result.examined.resize(devices.solver.examination().examine ? devices.count : 0);
-    std::vector<std::string> problems(devices.count);
+    Problems problems;
     const DeviceSink sink = [&](std::size_t i, SolvedDevice& solved) {
         yield.devices[i] = solved.device;
-        problems[i] = std::move(solved.problem);
+        problems.add(solved.problem);
         if (!result.examined.empty())
             result.examined[i] = std::move(solved.examined);
     };
@@ -118,7 +130,7 @@ ExaminedYield solve_all(const AskedDevices& devices, const YieldSettings& settin
     } else {
         yield.interrupted = !DeviceThreads(devices, settings.jobs).solve_all(interrupted, sink, progress);
     }
-    set_problems(yield, problems);
+    yield.problems = problems.sorted();
     return result;
 }
 

@@ -293,6 +293,9 @@ bool CycleMap::is_at_touch(double time, double period) const {
 }
 
 std::vector<double> CycleMap::projections(std::size_t count) const {
+    constexpr std::size_t most = 10'000'000;
+    if (count > most)
+        throw InputError(fmt::format("{} projections are too many", count), fmt::format("ask for up to {}", most));
     std::vector<double> result;
     if (!exists())
         return result;

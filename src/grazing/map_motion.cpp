@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 namespace graze {
@@ -43,6 +44,46 @@ private:
     Eigen::VectorXd state_;
 };
 
+/// States of the map one after the other, in one piece of memory.
+class StateList {
+public:
+    explicit StateList(const Eigen::VectorXd& first) : size_(first.size()) { add(first); }
+    void add(const Eigen::VectorXd& state) { numbers_.insert(numbers_.end(), state.begin(), state.end()); }
+    Eigen::Map<const Eigen::VectorXd> operator[](std::size_t index) const {
+        return {numbers_.data() + static_cast<Eigen::Index>(index) * size_, size_};
+    }
+    double largest() const {
+        double largest = 0;
+        for (const double number : numbers_)
+            largest = std::max(largest, std::abs(number));
+        return largest;
+    }
+
+private:
+    Eigen::Index size_;
+    std::vector<double> numbers_;
+};
+
+/// Asks whether to stop once in many calls, since asking may take longer than a cycle.
+class Asking {
+public:
+    explicit Asking(const std::function<bool()>& interrupted) : interrupted_(interrupted) {}
+    bool must_stop() {
+        constexpr std::size_t calls = 4096;
+        return interrupted_ && ++called_ % calls == 0 && interrupted_();
+    }
+
+private:
+    const std::function<bool()>& interrupted_;
+    std::size_t called_ = 0;
+};
+
+MapMotion interrupted_motion() {
+    MapMotion motion;
+    motion.interrupted = true;
+    return motion;
+}
+
 } // namespace
 
 MapMotion map_motion(const CycleMap& map, double clearance, const MapMotionOptions& options) {
@@ -52,25 +93,32 @@ MapMotion map_motion(const CycleMap& map, double clearance, const MapMotionOptio
     if (!std::isfinite(clearance))
         throw InputError("the clearance is not finite", "give a number, negative where contacts happen");
     ScaledMap scaled(map, clearance);
+    Asking asking(options.interrupted);
     MapMotion motion;
-    for (std::size_t k = 0; k < options.transient; ++k)
+    for (std::size_t k = 0; k < options.transient; ++k) {
+        if (asking.must_stop())
+            return interrupted_motion();
         scaled.step();
-    std::vector<Eigen::VectorXd> states{scaled.state()};
+    }
+    StateList states(scaled.state());
     std::vector<double> speeds;
     for (std::size_t k = 0; k < options.cycles; ++k) {
+        if (asking.must_stop())
+            return interrupted_motion();
         speeds.push_back(scaled.step());
-        states.push_back(scaled.state());
+        states.add(scaled.state());
     }
-    motion.bounded = states.back().allFinite();
+    motion.bounded = scaled.state().allFinite();
     if (!motion.bounded)
         return motion;
-    double size = 0;
-    for (const Eigen::VectorXd& state : states)
-        size = std::max(size, state.cwiseAbs().maxCoeff());
+    const double size = states.largest();
     for (std::size_t period = 1; motion.period == 0 && 2 * period <= options.cycles; ++period) {
         bool again = true;
-        for (std::size_t k = 0; again && k < period; ++k)
+        for (std::size_t k = 0; again && k < period; ++k) {
+            if (asking.must_stop())
+                return interrupted_motion();
             again = (states[k] - states[k + period]).cwiseAbs().maxCoeff() <= options.recurrence * size;
+        }
         if (again)
             motion.period = period;
     }

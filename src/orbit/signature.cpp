@@ -1,5 +1,6 @@
 #include "graze/orbit/signature.hpp"
 
+#include "base/character.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/name_list.hpp"
 #include "graze/base/require.hpp"
@@ -52,7 +53,9 @@ public:
                 while (at_ < text_.size() && is_name(text_[at_]))
                     ++at_;
                 if (at_ == begin)
-                    fail(fmt::format("'{}' does not belong into a signature", c), "list labels as in (J1 J8)^2");
+                    fail(fmt::format("'{}' does not belong into a signature",
+                                     text_.substr(at_, character_at(text_, at_).bytes)),
+                         "list labels as in (J1 J8)^2");
                 const Name name{std::string(text_.substr(begin, at_ - begin)), static_cast<int>(begin)};
                 append(open.back(), {name}, repetitions());
             }

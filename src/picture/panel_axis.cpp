@@ -19,7 +19,7 @@ constexpr double resolution = 1e-9;
 constexpr int least_power = -3, greatest_power = 5; ///< numbers outside these powers of ten get a common factor
 constexpr int most_tics = 6;
 
-bool is_within(double value, const std::optional<std::pair<double, double>>& range) {
+bool is_in_range(double value, const std::optional<std::pair<double, double>>& range) {
     return !range || (value >= range->first && value <= range->second);
 }
 
@@ -28,7 +28,7 @@ Extent extent_of(const FigurePanel& panel, bool horizontal) {
     const auto& other = horizontal ? panel.y_range : panel.x_range;
     for (const FigureSeries& series : panel.series) {
         for (const PlanePoint& point : series.points)
-            if (is_drawn(point, panel) && is_within(horizontal ? point.y : point.x, other))
+            if (is_drawn(point, panel) && is_in_range(horizontal ? point.y : point.x, other))
                 extent.add(horizontal ? point.x : point.y);
         for (const PlaneBox& cell : series.cells) {
             extent.add(horizontal ? cell.left : cell.low);

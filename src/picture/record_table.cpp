@@ -18,7 +18,7 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t most_rows = 2'000'000;
+constexpr std::size_t most_record_rows = 2'000'000;
 constexpr std::size_t most_drawn = 4000; ///< pairs of least and greatest values of a curve
 
 /// Thins a curve with more samples than can be distinguished: keeps the least and the greatest value of each part.
@@ -207,11 +207,11 @@ public:
         begin({{"frequency", inverse(header.time.unit)}, {"amplitude", channel.unit}});
         Spectrum found;
         if (request().part > 0) {
-            found = averaged_spectrum(record.source(), which, request().part);
+            found = averaged_spectrum(record.source(), which, request().part, request().interrupted);
         } else {
             constexpr std::size_t most = 4'000'000;
             const Samples all = read_all(record.source(), most);
-            found = spectrum(all.values[which], even_sampling_frequency(all.times));
+            found = spectrum(all.values[which], even_sampling_frequency(all.times), request().interrupted);
         }
         FigureSeries series{several() ? file : "", FigureSeries::Style::line, panel_.series.size()};
         for (std::size_t k = 0; k < found.frequencies.size(); ++k) {
@@ -311,8 +311,8 @@ void label_y(FigurePanel& panel, const Channel& channel) {
 }
 
 void require_few_rows(const Table& table) {
-    if (table.rows() > most_rows)
-        throw InputError(fmt::format("the table has more than {} rows", most_rows),
+    if (table.rows() > most_record_rows)
+        throw InputError(fmt::format("the table has more than {} rows", most_record_rows),
                          "write the record to a file by write, or take a part of it by from and to");
 }
 

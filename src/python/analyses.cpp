@@ -26,8 +26,6 @@ namespace graze::python {
 
 namespace {
 
-const Place of_point{"point", 0, 0}, of_parameter{"parameter", 0, 0};
-
 // Grazing
 
 py::array_t<double> square_of(const std::vector<double>& rows) {
@@ -105,7 +103,10 @@ void bind_map(py::module_& module) {
                 options.transient = transient;
                 options.cycles = cycles;
                 MapMotion motion;
-                attended([&](const std::function<bool()>&) { motion = map_motion(map, clearance, options); });
+                attended([&](const MustStop& must_stop) {
+                    options.interrupted = must_stop;
+                    motion = map_motion(map, clearance, options);
+                });
                 return py::make_tuple(motion.period, motion.contacts, motion.largest, motion.bounded);
             },
             py::arg("clearance"), py::arg("transient"), py::arg("cycles"));

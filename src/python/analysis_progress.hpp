@@ -12,6 +12,9 @@
 
 namespace graze::python {
 
+// Arguments of analyses, for messages.
+inline const Place of_point{"point", 0, 0}, of_parameter{"parameter", 0, 0};
+
 /// How far an analysis of a point is: noted by the threads that compute, told by the one that has called from Python.
 class AnalysisProgress {
 public:

@@ -14,7 +14,7 @@ namespace graze::python {
 
 namespace {
 
-constexpr std::chrono::milliseconds between_looks{20};
+constexpr std::chrono::milliseconds between_checks{20};
 
 /// The work of all threads. It is never destroyed; a process that was forked begins with another one, since it has only
 /// the thread that has forked.
@@ -57,7 +57,7 @@ public:
     /// @return whether it has ended
     bool wait() {
         std::unique_lock lock(mutex_);
-        return changed_.wait_for(lock, between_looks, [this] { return ended_; });
+        return changed_.wait_for(lock, between_checks, [this] { return ended_; });
     }
     /// To be called when it has ended.
     void rethrow() const {

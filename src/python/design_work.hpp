@@ -11,6 +11,9 @@
 
 namespace graze::python {
 
+/// What files that are written say of who has written them.
+inline constexpr const char* writer = "graze " GRAZE_VERSION;
+
 /// Computes a design, or what belongs to one, by `attended`.
 /// @param told called with what is done at present; None: nothing is told
 /// @param parts null: threads solve for the devices of yields

@@ -17,8 +17,6 @@ namespace graze::python {
 
 namespace {
 
-constexpr const char* generator = "graze " GRAZE_VERSION;
-
 std::string path_in(const std::string& folder, const char* name) {
     return (std::filesystem::path(folder) / name).string();
 }
@@ -50,8 +48,8 @@ private:
     std::vector<NamedTable> tables_;
 };
 
-std::shared_ptr<ComputedDesign> computed(const Design& design, const std::string& folder, int threads,
-                                         const py::object& told, const std::shared_ptr<PartExchange>& parts) {
+std::shared_ptr<ComputedDesign> carried_out_design(const Design& design, const std::string& folder, int threads,
+                                                   const py::object& told, const std::shared_ptr<PartExchange>& parts) {
     std::shared_ptr<ComputedDesign> result;
     attend_design(threads, told, parts, [&](const DesignReportOptions& options) {
         result = std::make_shared<ComputedDesign>(design, folder, options);
@@ -115,7 +113,7 @@ void bind_designs(py::module_& module) {
                                })
         .def_property_readonly("model", [](const Design& self) { return std::make_shared<HeldModel>(self.model); })
         .def_property_readonly("dimensions", &dimensions_of)
-        .def("compute", &computed, py::arg("folder"), py::kw_only(), py::arg("threads"), py::arg("told"),
+        .def("compute", &carried_out_design, py::arg("folder"), py::kw_only(), py::arg("threads"), py::arg("told"),
              py::arg("parts") = std::shared_ptr<PartExchange>());
     py::class_<ComputedDesign, std::shared_ptr<ComputedDesign>>(module, "ComputedDesign")
         .def_property_readonly("name", [](const ComputedDesign& self) { return self.design().name; })
@@ -157,7 +155,7 @@ void bind_designs(py::module_& module) {
                                [](const ComputedDesign& self) { return has_verilog_a(model_of_device(self.trip())); })
         .def("verilog_a",
              [](const ComputedDesign& self) {
-                 return verilog_a_text(model_of_device(self.trip()), self.design().name, generator);
+                 return verilog_a_text(model_of_device(self.trip()), self.design().name, writer);
              })
         .def("figure", [](const ComputedDesign& self) {
             return object_of(design_page(self.design(), self.trip(), self.report()));

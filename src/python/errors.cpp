@@ -1,4 +1,5 @@
 #include "graze/base/input_errors.hpp"
+#include "graze/base/printable.hpp"
 #include "python/binding.hpp"
 
 #include <exception>
@@ -7,10 +8,11 @@ namespace graze::python {
 
 namespace {
 
+/// Texts that messages quote come from anywhere: what is not UTF-8 in them cannot be a text of Python.
 py::object error_of(const Error& error) {
     return py::module_::import("graze._errors")
-        .attr("made")(std::string(name_of(error.kind())), error.problem(), error.remedy(), error.place().file,
-                      error.place().line, error.place().column);
+        .attr("made")(std::string(name_of(error.kind())), printable(error.problem()), printable(error.remedy()),
+                      printable(error.place().file), error.place().line, error.place().column);
 }
 
 void raise(const Error& error) {

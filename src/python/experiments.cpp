@@ -21,7 +21,6 @@ namespace graze::python {
 
 namespace {
 
-using MustStop = std::function<bool()>;
 using ChannelValues = std::vector<std::pair<std::string, std::variant<double, std::string>>>;
 
 void set_each(BenchSettings& settings, const py::dict& words, const char* name, double BenchChannel::*property) {

@@ -39,7 +39,7 @@ py::array_t<double> array_of_boxes(const std::vector<PlaneBox>& boxes) {
     return array_of(std::move(numbers), {static_cast<py::ssize_t>(boxes.size()), 4});
 }
 
-const char* name_of(FigureSeries::Style style) {
+const char* style_name(FigureSeries::Style style) {
     switch (style) {
     case FigureSeries::Style::dots:
         return "dots";
@@ -79,7 +79,7 @@ int hatch_of(std::size_t colour, int hatch, bool grey) {
 }
 
 /// Runs of letters with their look: (text, "upright", "italic", "lowered" or "raised").
-py::list object_of(const RichText& text) {
+py::list piece_of(const RichText& text) {
     static constexpr std::array<const char*, 4> looks{"upright", "italic", "lowered", "raised"};
     py::list runs;
     for (const TextRun& run : text)
@@ -87,14 +87,14 @@ py::list object_of(const RichText& text) {
     return runs;
 }
 
-py::tuple object_of(const Box& box) {
+py::tuple piece_of(const Box& box) {
     return py::make_tuple(box.left, box.low, box.right, box.high);
 }
 
-py::dict object_of(const FigureSeries& series, bool grey) {
+py::dict piece_of(const FigureSeries& series, bool grey) {
     py::dict object;
     object["title"] = series.title;
-    object["style"] = name_of(series.style);
+    object["style"] = style_name(series.style);
     object["colour"] = colour_of(series.style, series.colour, grey);
     object["number_of_colour"] = series.colour;
     object["points"] = array_of_points(series.points);
@@ -110,7 +110,7 @@ py::dict object_of(const FigureSeries& series, bool grey) {
     return object;
 }
 
-py::dict object_of(const FigureLabel& label, bool grey) {
+py::dict piece_of(const FigureLabel& label, bool grey) {
     py::dict object;
     object["at"] = py::make_tuple(label.at.x, label.at.y);
     object["text"] = label.text;
@@ -120,7 +120,7 @@ py::dict object_of(const FigureLabel& label, bool grey) {
     return object;
 }
 
-py::dict object_of(const FigurePanel& panel, bool grey) {
+py::dict piece_of(const FigurePanel& panel, bool grey) {
     py::dict object;
     object["title"] = panel.title;
     object["x_label"] = panel.x_label;
@@ -136,9 +136,9 @@ py::dict object_of(const FigurePanel& panel, bool grey) {
     object["y_range"] = panel.y_range;
     py::list series, labels;
     for (const FigureSeries& one : panel.series)
-        series.append(object_of(one, grey));
+        series.append(piece_of(one, grey));
     for (const FigureLabel& one : panel.labels)
-        labels.append(object_of(one, grey));
+        labels.append(piece_of(one, grey));
     object["series"] = series;
     object["labels"] = labels;
     object["marks"] = array_of(panel.marks);
@@ -147,20 +147,20 @@ py::dict object_of(const FigurePanel& panel, bool grey) {
     return object;
 }
 
-py::list object_of(const std::vector<LegendEntry>& legend, bool grey) {
+py::list piece_of(const std::vector<LegendEntry>& legend, bool grey) {
     py::list entries;
     for (const LegendEntry& entry : legend) {
         py::dict object;
         object["title"] = entry.title;
-        object["text"] = object_of(entry.text.empty() ? rich(entry.title) : entry.text);
-        object["style"] = name_of(entry.style);
+        object["text"] = piece_of(entry.text.empty() ? rich(entry.title) : entry.text);
+        object["style"] = style_name(entry.style);
         object["colour"] = colour_of(entry.style, entry.colour, grey);
         object["symbol"] =
             grey && entry.style == FigureSeries::Style::circles ? circle_mark(entry.colour) : entry.symbol;
         object["line_mark"] = grey && is_line(entry.style) ? line_mark(entry.colour) : 0;
         object["hatch"] = entry.style == FigureSeries::Style::cells ? hatch_of(entry.colour, entry.hatch, grey) : 0;
         object["sampled"] = entry.sampled;
-        object["box"] = object_of(entry.box);
+        object["box"] = piece_of(entry.box);
         entries.append(object);
     }
     return entries;
@@ -172,7 +172,7 @@ py::dict texts_of(const PanelLayout& panel) {
     PlanePoint notes_at{panel.frame.left, panel.frame.low};
     std::size_t tics = 0;
     for (const PlacedText& placed : panel.texts) {
-        const py::list text = object_of(placed.text);
+        const py::list text = piece_of(placed.text);
         if (placed.upright) {
             y_label.append(text);
         } else if (placed.align == PlacedText::Align::left) {
@@ -194,7 +194,7 @@ py::dict texts_of(const PanelLayout& panel) {
     return object;
 }
 
-py::dict object_of(const LabelPlaces& places, const PanelLayout& layout, bool grey) {
+py::dict piece_of(const LabelPlaces& places, const PanelLayout& layout, bool grey) {
     py::list labels;
     for (const PlacedLabel& label : places.labels) {
         py::dict object;
@@ -203,7 +203,7 @@ py::dict object_of(const LabelPlaces& places, const PanelLayout& layout, bool gr
         object["colour"] = colour_of(FigureSeries::Style::line, grey ? FigureSeries::black : label.colour, grey);
         object["at"] = py::make_tuple(at.x, at.y);
         object["offset"] = py::make_tuple(middle.x - label.point.x, middle.y - label.point.y);
-        object["box"] = object_of(label.box);
+        object["box"] = piece_of(label.box);
         object["led"] = label.led;
         object["leader_end"] =
             py::make_tuple((end.x - label.box.left) / label.box.width(), (end.y - label.box.low) / label.box.height());
@@ -227,7 +227,7 @@ PanelAxis axis_between(const std::tuple<double, double, bool>& limits) {
 
 /// What a function gives, made without the interpreter's lock.
 template <class Make>
-auto made(const Make& make) {
+auto made_unlocked(const Make& make) {
     const Unlocked unlocked;
     return make();
 }
@@ -243,7 +243,7 @@ public:
     py::list panels() const {
         py::list panels;
         for (const FigurePanel& panel : figure_.panels)
-            panels.append(object_of(panel, grey()));
+            panels.append(piece_of(panel, grey()));
         return panels;
     }
     py::dict style() const {
@@ -259,26 +259,26 @@ public:
 
     /// Positions on the page of the program's picture, in points from its lower left corner.
     py::dict layout() const {
-        const FigureLayout page = made([&] { return layout_of(figure_); });
+        const FigureLayout page = made_unlocked([&] { return layout_of(figure_); });
         py::dict object;
         object["width"] = page.width;
         object["height"] = page.height;
         object["font"] = page.font;
         py::list title, panels;
         for (const PlacedText& line : page.title)
-            title.append(object_of(line.text));
+            title.append(piece_of(line.text));
         object["title"] = title;
         object["title_top"] = page.title.empty() ? page.height : page.title.front().box.high;
         object["title_low"] = page.title.empty() ? page.height : page.title.back().box.low;
-        object["legend"] = object_of(page.legend, grey());
+        object["legend"] = piece_of(page.legend, grey());
         for (std::size_t p = 0; p < page.panels.size(); ++p) {
             const PanelLayout& panel = page.panels[p];
             py::dict one = texts_of(panel);
-            one["frame"] = object_of(panel.frame);
+            one["frame"] = piece_of(panel.frame);
             one["x"] = py::make_tuple(panel.x.low, panel.x.high, panel.x.logarithmic);
             one["y"] = py::make_tuple(panel.y.low, panel.y.high, panel.y.logarithmic);
             one["y_power"] = panel.y.power;
-            one["legend"] = object_of(panel.legend, grey());
+            one["legend"] = piece_of(panel.legend, grey());
             one["covering"] = covering_lines(figure_.panels[p], panel);
             panels.append(one);
         }
@@ -311,7 +311,7 @@ public:
         std::vector<LegendEntry> entries = legend;
         for (LegendEntry& entry : entries)
             entry.text = rich_words(entry.title, figure_.symbols);
-        object["legend"] = object_of(entries, grey());
+        object["legend"] = piece_of(entries, grey());
         return object;
     }
 
@@ -337,8 +337,9 @@ public:
                 if (layout.frame.holds(here))
                     filled.points.push_back(off_page(here, layout));
         panel.series.push_back(std::move(filled));
-        const LabelPlaces found = made([&] { return place_labels(panel, layout.frame, layout.x, layout.y, font); });
-        return object_of(found, layout, grey());
+        const LabelPlaces found =
+            made_unlocked([&] { return place_labels(panel, layout.frame, layout.x, layout.y, font); });
+        return piece_of(found, layout, grey());
     }
 
     /// The crosses of consecutive series that begin with this one, in layers: the number of the series after the last,
@@ -447,10 +448,10 @@ void bind_figures(py::module_& module) {
                py::arg("font"));
     module.def("dashes", &dashes_on_page, py::arg("line"), py::arg("dash"), py::arg("gap"), py::arg("frame"));
     module.def("rich_words", [](const std::string& text, const std::vector<std::string>& symbols) {
-        return object_of(rich_words(text, symbols));
+        return piece_of(rich_words(text, symbols));
     });
-    module.def("rich_name", [](const std::string& name) { return object_of(rich_name(name)); });
-    module.def("rich_unit", [](const std::string& unit) { return object_of(rich_unit(unit)); });
+    module.def("rich_name", [](const std::string& name) { return piece_of(rich_name(name)); });
+    module.def("rich_unit", [](const std::string& unit) { return piece_of(rich_unit(unit)); });
     module.def("wrapped_lines", &wrapped_lines, py::arg("text"), py::arg("width"), py::arg("most"));
     module.def("colour",
                [](std::size_t number, bool grey) { return colour_of(FigureSeries::Style::line, number, grey); });

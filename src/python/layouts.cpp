@@ -26,8 +26,6 @@ namespace graze::python {
 
 namespace {
 
-constexpr const char* generator = "graze " GRAZE_VERSION;
-
 using GivenTexts = std::vector<std::pair<std::string, std::variant<double, std::string>>>;
 
 GivenLengths lengths_of(const GivenTexts& given) {
@@ -111,7 +109,7 @@ private:
     std::optional<DesignedDevice> designed_;
 };
 
-py::list findings_of(const HeldLayout& self) {
+py::list rule_findings(const HeldLayout& self) {
     py::list list;
     for (const RuleFinding& one : self.findings()) {
         py::dict object;
@@ -164,7 +162,7 @@ py::dict lumped_of(const HeldLayout& self) {
     return object;
 }
 
-const char* name_of(ProcessMaterial material) {
+const char* material_name(ProcessMaterial material) {
     switch (material) {
     case ProcessMaterial::silicon:
         return "silicon";
@@ -185,7 +183,7 @@ py::list steps_of(const HeldLayout& self) {
         py::list slabs;
         for (const ProcessSlab& slab : step.slabs)
             slabs.append(
-                py::make_tuple(std::string(name_of(slab.material)), slab.left, slab.right, slab.low, slab.high));
+                py::make_tuple(std::string(material_name(slab.material)), slab.left, slab.right, slab.low, slab.high));
         list.append(py::make_tuple(step.text, slabs));
     }
     return list;
@@ -300,7 +298,7 @@ void bind_layouts(py::module_& module) {
                                })
         .def_property_readonly("matched", [](const HeldLayout& self) { return self.designed().has_value(); })
         .def("table", [](const HeldLayout& self) { return columns_of(layout_table(self.layout(), self.file())); })
-        .def_property_readonly("findings", &findings_of)
+        .def_property_readonly("findings", &rule_findings)
         .def("require_ruled", &HeldLayout::require_ruled)
         .def("polygons", &polygons_of, py::arg("mask"))
         .def("lumped", &lumped_of)
@@ -311,13 +309,11 @@ void bind_layouts(py::module_& module) {
         .def(
             "gds", [](const HeldLayout& self, std::optional<int> mask) { return py::bytes(self.gds(mask)); },
             py::arg("mask"))
-        .def("markers",
-             [](const HeldLayout& self) { return rule_markers(self.findings(), self.layout().top, generator); })
+        .def("markers", [](const HeldLayout& self) { return rule_markers(self.findings(), self.layout().top, writer); })
         .def("recipe", [](const HeldLayout& self,
                           const std::vector<std::string>& options) { return recipe_text(self.file(), options); })
         .def("steps", &steps_of)
-        .def("verilog_a",
-             [](const HeldLayout& self) { return verilog_a_text(self.model(), self.file().name, generator); })
+        .def("verilog_a", [](const HeldLayout& self) { return verilog_a_text(self.model(), self.file().name, writer); })
         .def("wafers", &made_wafers, py::arg("folder"), py::arg("count"), py::kw_only(), py::arg("seed"),
              py::arg("despite_rules"), py::arg("threads"), py::arg("told"),
              py::arg("parts") = std::shared_ptr<PartExchange>())

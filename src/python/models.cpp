@@ -22,7 +22,7 @@ std::shared_ptr<HeldModel> held(Model model) {
     return std::make_shared<HeldModel>(std::move(model));
 }
 
-py::list parameters_of(const HeldModel& self) {
+py::list parameter_list(const HeldModel& self) {
     py::list list;
     for (const Parameter& one : self.model.parameters) {
         py::dict item;
@@ -101,7 +101,7 @@ void bind_models(py::module_& module) {
         .def_property_readonly("source", [](const HeldModel& self) { return self.model.source; })
         .def_property_readonly("time_unit", [](const HeldModel& self) { return self.model.time_unit; })
         .def_property_readonly("states", &states_of)
-        .def_property_readonly("parameters", &parameters_of)
+        .def_property_readonly("parameters", &parameter_list)
         .def_property_readonly("modes", [](const HeldModel& self) { return names_and_texts(self.model.modes); })
         .def_property_readonly("events", [](const HeldModel& self) { return names_and_texts(self.model.events); })
         .def_property_readonly("jumps", [](const HeldModel& self) { return names_and_texts(self.model.jumps); })

@@ -12,7 +12,7 @@ namespace graze::python {
 
 namespace {
 
-constexpr std::chrono::milliseconds between_looks{20};
+constexpr std::chrono::milliseconds between_answers{20};
 
 /// Chains that are not complete, in ranges.
 std::vector<ItemRange> missing_chains(const PartedRun& run, std::span<const ChainProgress> known) {
@@ -95,7 +95,7 @@ bool PartExchange::await(const PartedWork& work, const std::function<bool()>& in
                 throw InputError(*open.failure);
             if (interrupted && interrupted())
                 break;
-            changed_.wait_for(lock, between_looks);
+            changed_.wait_for(lock, between_answers);
         }
         const bool complete = open.missing == 0;
         close();

@@ -19,8 +19,6 @@ namespace graze::python {
 
 namespace {
 
-using MustStop = std::function<bool()>;
-
 /// Ends reading, in a computation that has to end: `attended` throws what has ended it.
 class Ended : public std::exception {};
 
@@ -176,6 +174,7 @@ std::unique_ptr<RecordTable> filled_table(const HeldRecords& records, RecordTabl
     request.drawn = drawn;
     std::unique_ptr<RecordTable> table;
     attended([&](const MustStop& must_stop) {
+        request.interrupted = must_stop;
         table = record_table(request, records.size() > 1);
         for (const auto& one : records)
             with_place({one->name(), 0, 0}, [&] {
@@ -252,7 +251,7 @@ py::dict harmonic_of(const HeldRecord& record, const std::string& channel, doubl
     return object;
 }
 
-void write(const HeldRecord& record, const std::string& path, const std::vector<std::string>& channels) {
+void write_record(const HeldRecord& record, const std::string& path, const std::vector<std::string>& channels) {
     const std::vector<std::size_t> chosen = record.header().chosen_channels(channels, "channels");
     attend_record(record, [&](SampleSource& source, const MustStop& must_stop) {
         write_record(source, chosen, path, must_stop);
@@ -352,7 +351,7 @@ void bind_records(py::module_& module) {
         .def("samples", &samples_of)
         .def("period", &period_of, py::arg("reference"), py::arg("level"), py::arg("hysteresis"))
         .def("harmonic", &harmonic_of, py::arg("channel"), py::arg("frequency"))
-        .def("write", &write, py::arg("path"), py::arg("channels"));
+        .def("write", &write_record, py::arg("path"), py::arg("channels"));
     module.def(
         "record_table",
         [](const HeldRecords& records, const std::string& what, const py::dict& words) {

@@ -22,7 +22,7 @@ py::list units_of(const std::vector<ResultColumn>& columns) {
     return list;
 }
 
-py::dict object_of(const RunRecord& run) {
+py::dict facts_of_record(const RunRecord& run) {
     py::dict object;
     object["name"] = run.name;
     object["kind"] = run.kind;
@@ -47,7 +47,7 @@ py::array_t<std::complex<double>> array_of_multipliers(const std::vector<std::co
     return array_of(multipliers);
 }
 
-py::dict object_of(const RunRecord& run, const OrbitRecord& record) {
+py::dict facts_of_record(const RunRecord& run, const OrbitRecord& record) {
     const SpecialPoint& point = record.point;
     const OrbitSolution& solution = point.solution;
     py::dict object;
@@ -166,14 +166,14 @@ void bind_results(py::module_& module) {
              [](const ResultFile& self) {
                  py::list list;
                  for (const RunRecord& run : self.runs())
-                     list.append(object_of(run));
+                     list.append(facts_of_record(run));
                  return list;
              })
         .def(
             "run",
             [](const ResultFile& self, const std::string& name) {
                 const auto run = self.find_run(name);
-                return run ? py::object(object_of(*run)) : py::none();
+                return run ? py::object(facts_of_record(*run)) : py::none();
             },
             py::arg("name"))
         .def("count", &ResultFile::point_count, py::arg("run"))
@@ -222,7 +222,7 @@ void bind_results(py::module_& module) {
                 py::list list;
                 if (record)
                     for (const OrbitRecord& one : self.orbits(run, special))
-                        list.append(object_of(*record, one));
+                        list.append(facts_of_record(*record, one));
                 return list;
             },
             py::arg("run"), py::kw_only(), py::arg("special"))
@@ -230,7 +230,7 @@ void bind_results(py::module_& module) {
             "orbit",
             [](const ResultFile& self, const std::string& run, const std::string& point) {
                 const OrbitRecord record = orbit_named(self, run, point); // throws where there is no such run
-                return object_of(*self.find_run(run), record);
+                return facts_of_record(*self.find_run(run), record);
             },
             py::arg("run"), py::arg("point"))
         .def("motion", &motion_along, py::arg("run"), py::arg("point"), py::arg("samples"))

@@ -1,16 +1,16 @@
 #include "python/tables.hpp"
+
+#include "base/special_numbers.hpp"
+#include "graze/results/query_interruption.hpp"
 #include "python/attended.hpp"
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <variant>
 
 namespace graze::python {
 
 namespace {
-
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 /// The cells of one column that is read without knowing its type. It is made of whole numbers until another cell comes,
 /// then of numbers, and finally of anything.
@@ -30,7 +30,7 @@ public:
         else
             std::get<Mixed>(cells_).push_back({number, {}});
     }
-    void add(std::string text) { mixed().push_back({missing, std::move(text)}); }
+    void add(std::string text) { mixed().push_back({not_a_number, std::move(text)}); }
 
     /// An empty column becomes one of numbers that need not be whole.
     void of_numbers() { cells_ = Reals(); }
@@ -54,7 +54,7 @@ public:
 
 private:
     struct Cell {
-        double number = missing;
+        double number = not_a_number;
         std::optional<std::string> text;
     };
     using Whole = std::vector<std::int64_t>;
@@ -77,8 +77,8 @@ private:
     std::variant<Whole, Reals, Mixed> cells_;
 };
 
-py::tuple made(const std::vector<std::string>& names, std::vector<ColumnCells>& columns,
-               const std::vector<std::string>& units) {
+py::tuple made_columns(const std::vector<std::string>& names, std::vector<ColumnCells>& columns,
+                       const std::vector<std::string>& units) {
     py::list arrays;
     for (ColumnCells& column : columns)
         arrays.append(std::move(column).object());
@@ -98,30 +98,30 @@ py::tuple columns_of(const Table& table) {
             if (table.is_text(r, c))
                 columns[c].add(table.text(r, c));
             else
-                columns[c].add(table.is_missing(r, c) ? missing : table.number(r, c));
+                columns[c].add(table.is_missing(r, c) ? not_a_number : table.number(r, c));
     }
-    return made(names, columns, units);
+    return made_columns(names, columns, units);
 }
 
 py::tuple columns_of(ResultFile::Rows rows, const std::vector<std::string>& units) {
     std::vector<std::string> names;
     std::vector<ColumnCells> columns(rows.columns());
-    {
-        const Unlocked unlocked;
+    attended([&](const MustStop& must_stop) {
+        const QueryInterruption stoppable(must_stop);
         for (std::size_t c = 0; c < columns.size(); ++c)
             names.push_back(rows.column_name(c));
         while (rows.next())
             for (std::size_t c = 0; c < columns.size(); ++c)
                 if (rows.is_null(c))
-                    columns[c].add(missing);
+                    columns[c].add(not_a_number);
                 else if (rows.is_text(c))
                     columns[c].add(rows.text(c));
                 else if (rows.is_integer(c))
                     columns[c].add(rows.integer(c));
                 else
                     columns[c].add(rows.number(c));
-    }
-    return made(names, columns, units);
+    });
+    return made_columns(names, columns, units);
 }
 
 } // namespace graze::python

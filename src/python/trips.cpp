@@ -23,8 +23,6 @@ namespace graze::python {
 
 namespace {
 
-const Place of_point{"point", 0, 0}, of_parameter{"parameter", 0, 0};
-
 /// A point at which a motion is lost, and what ends its trips.
 class HeldLossPoint {
 public:
@@ -284,7 +282,7 @@ private:
     std::vector<NoisyTrips> all_;
 };
 
-py::dict object_of(const HeldLossPoint& self) {
+py::dict facts_of_point(const HeldLossPoint& self) {
     const LossPoint& point = self.point();
     py::dict object;
     object["parameter"] = point.name;
@@ -309,11 +307,11 @@ void bind_trips(py::module_& module) {
                       std::optional<double>>(),
              py::arg("file"), py::arg("point"), py::kw_only(), py::arg("parameter"), py::arg("until"),
              py::arg("greatest_speed"))
-        .def("object", [](const HeldLossPoint& self) { return object_of(self); });
+        .def("object", [](const HeldLossPoint& self) { return facts_of_point(self); });
     py::class_<Trips>(module, "Trips")
         .def("compute", &Trips::compute)
         .def("table", [](const Trips& self) { return columns_of(self.table()); })
-        .def("figure", [](const Trips& self) { return python::object_of(self.figure()); })
+        .def("figure", [](const Trips& self) { return object_of(self.figure()); })
         .def("unfinished", &Trips::unfinished)
         .def_property_readonly("rows", &Trips::rows)
         .def_property_readonly("wanted", &Trips::wanted);

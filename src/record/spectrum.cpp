@@ -40,7 +40,7 @@ std::vector<double> hann_window(std::size_t size) {
 
 } // namespace
 
-Spectrum spectrum(std::span<const double> samples, double frequency) {
+Spectrum spectrum(std::span<const double> samples, double frequency, const std::function<bool()>& interrupted) {
     require_finite(samples, "a sample");
     if (!(frequency > 0))
         throw InputError(fmt::format("the frequency {} of samples is not positive", frequency),
@@ -58,7 +58,9 @@ Spectrum spectrum(std::span<const double> samples, double frequency) {
         std::vector<double> rest(samples.begin(), samples.end());
         for (double& value : rest)
             value -= result.mean;
-        sums = half_transform(rest);
+        sums = half_transform(rest, interrupted);
+        if (sums.empty())
+            return {};
     }
     for (std::size_t k = 1; 2 * k <= count; ++k) {
         const std::complex<double> sum = count > few ? sums[k] : direct_sum(samples, result.mean, k);
@@ -82,7 +84,8 @@ double sampling_frequency(std::span<const double> times) {
     return 1 / spacing;
 }
 
-Spectrum averaged_spectrum(SampleSource& source, std::size_t channel, std::size_t part) {
+Spectrum averaged_spectrum(SampleSource& source, std::size_t channel, std::size_t part,
+                           const std::function<bool()>& interrupted) {
     require_index(channel, source.header().channels.size(), "channel");
     constexpr std::size_t least = 8;
     if (part < least)
@@ -109,7 +112,9 @@ Spectrum averaged_spectrum(SampleSource& source, std::size_t channel, std::size_
             const double mean = mean_of(values);
             for (std::size_t i = 0; i < part; ++i)
                 piece[i] = window[i] * (values[i] - mean);
-            const std::vector<std::complex<double>> sums = half_transform(piece);
+            const std::vector<std::complex<double>> sums = half_transform(piece, interrupted);
+            if (sums.empty())
+                return {};
             result.amplitudes.resize(part / 2, 0.0);
             for (std::size_t k = 1; 2 * k <= part; ++k)
                 result.amplitudes[k - 1] +=

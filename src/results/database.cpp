@@ -1,6 +1,7 @@
 #include "results/database.hpp"
 
 #include "graze/base/input_error.hpp"
+#include "graze/results/query_interruption.hpp"
 
 #include <fmt/format.h>
 
@@ -90,6 +91,8 @@ void throw_database_error(int code, const std::string& message, const std::strin
         throw InputError(place, fmt::format("this is no result file of graze ({})", message),
                          "give the results.sqlite of a study, or its folder");
     case SQLITE_INTERRUPT:
+        if (QueryInterruption::requested())
+            throw InputError(place, "the query was interrupted", "ask again");
         throw InputError(place, "a query takes too long",
                          "ask for less; if the file is a stranger's, it may be made to do so");
     case SQLITE_TOOBIG:

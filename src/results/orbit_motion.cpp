@@ -15,9 +15,9 @@ namespace graze {
 
 namespace {
 
-constexpr double tolerance = 1e-13; ///< the tolerance at which orbits are computed
+constexpr double orbit_tolerance = 1e-13; ///< the tolerance at which orbits are computed
 /// Limit for all segments together. Computed orbits take some hundreds of steps, but a file may have any duration.
-constexpr std::size_t most_steps = 100'000;
+constexpr std::size_t most_steps_of_orbit = 100'000;
 
 /// Takes samples until no steps are left.
 class BoundedSampler : public Sampler {
@@ -68,7 +68,7 @@ public:
         graze::run(trajectory, jets_);
         const Outcome& outcome = trajectory.outcome();
         if (*left_ == 0)
-            return fmt::format("the orbit takes more than {} steps", most_steps);
+            return fmt::format("the orbit takes more than {} steps", most_steps_of_orbit);
         if (outcome.ending != Ending::end_time)
             return outcome.detail.empty() ? std::string(name_of(outcome.ending)) : outcome.detail;
         receive(duration, trajectory.state());
@@ -78,7 +78,7 @@ public:
 private:
     static SimulationOptions options() {
         SimulationOptions options;
-        options.tolerance = tolerance;
+        options.tolerance = orbit_tolerance;
         return options;
     }
     std::size_t* left_;
@@ -99,7 +99,7 @@ Model model_at(const Model& model, const Orbit& orbit) {
 
 std::vector<SegmentMotion> orbit_motion(const Model& model, const Orbit& orbit, std::size_t samples) {
     const Model there = model_at(model, orbit);
-    std::size_t left = most_steps;
+    std::size_t left = most_steps_of_orbit;
     SmoothMotion forwards(there, false, left);
     double whole = 0, time = 0;
     for (const double duration : orbit.durations)

@@ -1,5 +1,7 @@
 #include "results/query_guard.hpp"
 
+#include "graze/results/query_interruption.hpp"
+
 #include <string_view>
 
 namespace graze {
@@ -36,15 +38,15 @@ QueryGuard::QueryGuard(sqlite3* database, Clock::duration patience) : database_(
     sqlite3_db_config(database, SQLITE_DBCONFIG_ENABLE_LOAD_EXTENSION, 0, nullptr);
     sqlite3_limit(database, SQLITE_LIMIT_ATTACHED, 0);
     sqlite3_limit(database, SQLITE_LIMIT_LENGTH, longest_value);
-    sqlite3_progress_handler(database, instructions_between_checks, is_overdue, this);
+    sqlite3_progress_handler(database, instructions_between_checks, has_to_stop, this);
 }
 
 QueryGuard::~QueryGuard() {
     sqlite3_progress_handler(database_, 0, nullptr, nullptr);
 }
 
-int QueryGuard::is_overdue(void* guard) {
-    return Clock::now() > static_cast<QueryGuard*>(guard)->deadline_ ? 1 : 0;
+int QueryGuard::has_to_stop(void* guard) {
+    return Clock::now() > static_cast<QueryGuard*>(guard)->deadline_ || QueryInterruption::requested() ? 1 : 0;
 }
 
 std::shared_ptr<void> QueryGuard::reading_only(sqlite3* database) {

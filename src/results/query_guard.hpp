@@ -46,7 +46,7 @@ public:
     void set_patience(Clock::duration patience) { patience_ = patience; }
 
 private:
-    static int is_overdue(void* guard);
+    static int has_to_stop(void* guard);
 
     sqlite3* database_;
     Clock::duration patience_;

@@ -105,7 +105,18 @@ std::string result_path(const std::string& file_or_folder) {
                : file_or_folder;
 }
 
+namespace {
+
+/// A zero byte would end the path for the system, and another file would be meant.
+void require_path(const std::string& path) {
+    if (path.find('\0') != std::string::npos)
+        throw FileError(path, "the path has a zero byte in it", "give the path of a file");
+}
+
+} // namespace
+
 ResultFile::ResultFile(const std::string& path, Access access) {
+    require_path(path);
     if (path.empty() || path == ":memory:") // SQLite would not keep these databases
         throw InputError(fmt::format("'{}' names no file to keep results in", path), "give the path of a file");
     const bool writing = access == Access::write;
@@ -197,6 +208,7 @@ void ResultFile::copy_to(const std::string& path) {
     if (!state_->lock)
         throw InputError(Place{this->path(), 0, 0}, "a result file is not copied while it is open for reading only",
                          "open it for writing");
+    require_path(path);
     flush();
     std::error_code error;
     if (std::filesystem::exists(std::filesystem::symlink_status(path, error)))

@@ -37,7 +37,7 @@ std::string contacts_text(const Model& model, const std::vector<std::size_t>& co
 struct OrderTexts {
     const char *contact, *gain, *next;
 };
-OrderTexts texts_of(MapOrder order) {
+OrderTexts order_texts(MapOrder order) {
     switch (order) {
     case MapOrder::square_root:
         return {"a rigid contact", "what it gains by approach speed", "the next order: by its square"};
@@ -64,7 +64,7 @@ void add_contact(TouchRows& facts, const Model& model, const CycleMap& map) {
         facts.add("map", name_of(MapOrder::none), map.reason);
         return;
     }
-    const OrderTexts texts = texts_of(contact.order);
+    const OrderTexts texts = order_texts(contact.order);
     facts.add("map", name_of(contact.order), texts.contact);
     facts.add("contacts", contacts_text(model, contact.contacts), "transitions that a soft contact makes");
     facts.add("acceleration", contact.acceleration, "second rate of the gap (the event's function)");

@@ -11,9 +11,9 @@ namespace graze {
 
 namespace {
 
-constexpr double generator_frequency = 1000; ///< Hz, as after it is switched on
-constexpr double largest_amplitude = 5;      ///< V, half of what the generator gives from peak to peak
-constexpr std::size_t part = 8192;           ///< samples between two questions whether to go on
+constexpr double generator_frequency = 1000;  ///< Hz, as after it is switched on
+constexpr double largest_amplitude = 5;       ///< V, half of what the generator gives from peak to peak
+constexpr std::size_t samples_at_once = 8192; ///< samples between two questions whether to go on
 
 } // namespace
 
@@ -66,7 +66,7 @@ bool BenchRecords::take(std::size_t number, const std::function<bool()>& interru
         drive(amplitude);
     }
     // In parts as long as those of the samples, so that settling can be interrupted.
-    const double stretch = static_cast<double>(part) / bench_->rate;
+    const double stretch = static_cast<double>(samples_at_once) / bench_->rate;
     for (double left = bench_->settle; left > 0; left -= stretch) {
         if (interrupted && interrupted())
             return false;
@@ -77,7 +77,7 @@ bool BenchRecords::take(std::size_t number, const std::function<bool()>& interru
     for (auto left = static_cast<std::size_t>(std::llround(bench_->rate * bench_->time)); left > 0;) {
         if (interrupted && interrupted())
             return false;
-        const std::size_t count = std::min(left, part);
+        const std::size_t count = std::min(left, samples_at_once);
         instrument_->sample(count, some);
         samples.append(some);
         left -= count;

@@ -10,19 +10,19 @@ namespace graze {
 
 namespace {
 
-bool is(const std::string& text, Label label) {
+bool has_label(const std::string& text, Label label) {
     return text == name_of(label);
 }
 
 /// Whether it is known when a motion left, or that it has not.
 bool is_known(const std::string& label) {
-    return !is(label, Label::unsettled) && !is(label, Label::failed);
+    return !has_label(label, Label::unsettled) && !has_label(label, Label::failed);
 }
 
 bool has_left(const std::string& kind, const std::string& label, const std::string& ending) {
     if (kind == name_of(RunKind::simulate))
-        return !is(label, Label::ended) || ending == name_of(Ending::terminal);
-    return !is(label, Label::chaotic) && !is(label, Label::transient);
+        return !has_label(label, Label::ended) || ending == name_of(Ending::terminal);
+    return !has_label(label, Label::chaotic) && !has_label(label, Label::transient);
 }
 
 struct Group {
@@ -52,7 +52,7 @@ std::vector<EscapeRate> escape_rates(const StoredRun& run) {
             at.push_back(rows.number(4 + p));
         Group& group = groups[at];
         group.stays.push_back({static_cast<std::size_t>(cycles), has_left(record.kind, label, rows.text(2))});
-        if (is(label, Label::chaotic))
+        if (has_label(label, Label::chaotic))
             group.chaotic.push_back(static_cast<std::size_t>(rows.integer(0)));
     }
     std::vector<EscapeRate> rates;

@@ -18,10 +18,10 @@ namespace graze {
 
 namespace {
 
-using Names = std::map<std::string, std::string>;
+using RunNames = std::map<std::string, std::string>;
 
 /// Replaces the names of the runs that a run needs. @return whether one has changed
-bool rename_needs(StudyRun& run, const Names& names) {
+bool rename_needs(StudyRun& run, const RunNames& names) {
     bool changed = false;
     const auto rename = [&](std::string& name) {
         const auto found = names.find(name);
@@ -40,7 +40,7 @@ bool rename_needs(StudyRun& run, const Names& names) {
 }
 
 /// The record of a copy, which runs of other names come before.
-RunRecord renamed(const RunRecord& record, const StudyRun& run, const Names& fingerprints) {
+RunRecord renamed(const RunRecord& record, const StudyRun& run, const RunNames& fingerprints) {
     const RunRecord asked = record_of(run, parent_fingerprint(run, fingerprints), record.points);
     RunRecord copy = record;
     copy.settings = asked.settings;
@@ -84,7 +84,7 @@ std::map<std::string, std::string> copy_runs(const ResultFile& from, ResultFile&
     const Study study = stored_study(from);
     const std::set<std::string> wanted = wanted_runs(study, names);
     const std::vector<RunRecord> before = to.runs();
-    Names copies, fingerprints; // fingerprints by the names there
+    RunNames copies, fingerprints; // fingerprints by the names there
     std::set<std::string> taken;
     for (const RunRecord& one : before) {
         fingerprints[one.name] = one.fingerprint;

@@ -64,7 +64,8 @@ private:
     Place place_;
 };
 
-IdentificationSettings settings_of(const StudyRun& run, const std::vector<EstimateRecords>& found, std::size_t count) {
+IdentificationSettings identification_settings(const StudyRun& run, const std::vector<EstimateRecords>& found,
+                                               std::size_t count) {
     const IdentifyRequest& request = run.identify();
     KnownNumbers known(run, found);
     IdentificationSettings settings;
@@ -112,7 +113,7 @@ Identification identify_records(const StudyRun& run, const EachRecord& records, 
     const auto identify = estimate_kind(run.identify().what).identify;
     if (!identify)
         throw InputError(run.place, "a fit needs all records at once", "call fit_records");
-    return identify(checked, settings_of(run, found, count));
+    return identify(checked, identification_settings(run, found, count));
 }
 
 } // namespace graze

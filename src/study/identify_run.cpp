@@ -16,8 +16,6 @@ namespace graze {
 
 namespace {
 
-using What = IdentifyRequest::What;
-
 /// The estimates, under the names of the parameters that they give.
 EstimateRecords estimates_of(const Identification& found, const IdentifyRequest& request, const Place& place) {
     EstimateRecords records;
@@ -184,7 +182,7 @@ std::vector<KeptRecord> kept_records(const StudyRun& run, const ResultFile& file
 std::optional<FoundByRun> identify(const StudyRun& run, const std::vector<KeptRecord>& records,
                                    const std::vector<EstimateRecords>& found,
                                    const std::function<bool()>& interrupted) {
-    if (run.identify().what == What::fit) {
+    if (run.identify().what == IdentifyRequest::What::fit) {
         FitSettings settings;
         settings.interrupted = interrupted;
         settings.progress = [&](const FitProgress&) { return !(interrupted && interrupted()); };

@@ -14,8 +14,6 @@ namespace graze {
 
 namespace {
 
-using What = IdentifyRequest::What;
-
 /// Units of the model's time, parameters and states that have the dimension of this unit.
 std::vector<std::string> units_alike(const Model& model, const PhysicalUnit& unit) {
     std::vector<std::string> found;
@@ -135,15 +133,15 @@ void check_record_units(const StudyRun& run, const RecordHeader& header) {
         return header.channels[header.channel(name, key)];
     };
     std::string length = "m"; // unless the record has another unit of displacements
-    if (request.what == What::coupling) {
+    if (request.what == IdentifyRequest::What::coupling) {
         const Channel& q = channel(request.displacement.empty() ? "q" : request.displacement, "displacement");
         check_channel(run, q);
         if (told_unit(q.unit))
             length = q.unit;
     }
-    if (request.what == What::impedance && (!request.frequency.empty() || !request.beta1.empty()))
+    if (request.what == IdentifyRequest::What::impedance && (!request.frequency.empty() || !request.beta1.empty()))
         check_record_time(run, header);
-    if (request.what == What::impedance && !request.beta1.empty()) {
+    if (request.what == IdentifyRequest::What::impedance && !request.beta1.empty()) {
         check_channel(run, channel(request.voltage, "voltage"));
         check_channel(run, channel(request.current, "current"));
     }

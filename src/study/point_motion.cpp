@@ -34,7 +34,7 @@ PointRecord chosen_point(const StoredRun& run, const std::vector<std::pair<std::
 
 namespace {
 
-constexpr std::size_t most_rows = 1'000'000;
+constexpr std::size_t most_samples_of_point = 1'000'000;
 /// A step of high order covers a good part of an oscillation; the curve is thinned out again before it is drawn.
 constexpr int points_of_step = 32, fewest_points = 2;
 
@@ -56,7 +56,7 @@ public:
             add(step.start + s);
         }
         new_arc_ = false;
-        if (rows() > most_rows)
+        if (rows() > most_samples_of_point)
             make_room();
     }
     void contact(const Contact& contact) override {

@@ -55,7 +55,7 @@ StartedRun read_started(const std::string& text) {
     return run;
 }
 
-StudyRun run_of(const StartedRun& started) {
+StudyRun started_run(const StartedRun& started) {
     Model model = parse_model(started.model, "model of a part of a run");
     const bool fits = !started.start || (started.start->result.state.size() == model.states.size() &&
                                          started.start->result.mode < model.modes.size());
@@ -85,7 +85,7 @@ void require_consistent(const RunPart& part) {
 }
 
 /// The numbers of the points that a part consists of, in the order of the chains.
-std::vector<std::size_t> points_of(const RunPart& part, std::size_t chain_length) {
+std::vector<std::size_t> point_numbers(const RunPart& part, std::size_t chain_length) {
     std::vector<std::size_t> points;
     for (std::size_t chain = part.chains.first; chain < part.chains.last; ++chain)
         for (std::size_t index = part.known.empty() ? 0 : part.known[chain - part.chains.first].done;
@@ -113,7 +113,7 @@ PartedRun::PartedRun(const StudyRun& run, const PointRecord* start)
 
 PartedRun::PartedRun(const std::string& text) {
     const StartedRun started = read_started(text);
-    state_ = std::make_unique<const State>(run_of(started), started.start ? &*started.start : nullptr);
+    state_ = std::make_unique<const State>(started_run(started), started.start ? &*started.start : nullptr);
 }
 
 PartedRun::~PartedRun() = default;
@@ -201,7 +201,7 @@ void read_points(const PartedRun& run, const RunPart& part, std::string_view byt
     }
     // Chains alternate where they were computed side by side, in another way on each machine.
     std::ranges::sort(points, {}, &std::pair<std::size_t, PointResult>::first);
-    if (!std::ranges::equal(points, points_of(part, run.chain_length()), {},
+    if (!std::ranges::equal(points, point_numbers(part, run.chain_length()), {},
                             &std::pair<std::size_t, PointResult>::first))
         ByteReader::fail();
     for (auto& [number, result] : points)

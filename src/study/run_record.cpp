@@ -14,10 +14,10 @@ namespace graze {
 namespace {
 
 /// Version of the algorithms: it changes when the same settings lead to other numbers than before.
-constexpr int numbers = 3;
+constexpr int version_of_algorithms = 3;
 
 /// Adds all parameters as coordinates: first the one that is followed, of a curve both.
-void add_parameters(const StudyRun& run, RunRecord& record) {
+void add_found_parameters(const StudyRun& run, RunRecord& record) {
     const std::vector<std::string> parameters = run.model.independent_parameters();
     const auto add = [&](std::size_t p) {
         const std::string& name = parameters[p];
@@ -67,10 +67,10 @@ RunRecord record_of(const StudyRun& run, const std::string& parent_fingerprint, 
     record.model = write_model(run.model);
     record.settings = settings_of(run);
     record.version = GRAZE_VERSION;
-    record.fingerprint =
-        fingerprint_of(fmt::format("{} {} {} {}", numbers, record.model, record.settings, parent_fingerprint));
+    record.fingerprint = fingerprint_of(
+        fmt::format("{} {} {} {}", version_of_algorithms, record.model, record.settings, parent_fingerprint));
     if (run.is_branch())
-        add_parameters(run, record);
+        add_found_parameters(run, record);
     if (run.kind == RunKind::record && !run.record().coordinate.empty())
         record.coordinates.push_back({run.record().coordinate, run.model.parameter_unit(run.record().coordinate)});
     if (run.has_motions())

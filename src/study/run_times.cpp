@@ -14,7 +14,7 @@ std::string key_of(const std::string& run) {
 }
 
 template <class Fields, class Times>
-void describe(Fields& fields, Times& times) {
+void describe_times(Fields& fields, Times& times) {
     describe_fields(fields, "begun", times.begun, "ended", times.ended, "seconds", times.seconds);
 }
 
@@ -30,7 +30,7 @@ std::string present_time() {
 
 void note_times(ResultFile& file, const std::string& run, const RunTimes& times) {
     SettingsWriter fields;
-    describe(fields, times);
+    describe_times(fields, times);
     file.set_note(key_of(run), fields.text());
 }
 
@@ -42,7 +42,7 @@ std::optional<RunTimes> times_of(const ResultFile& file, const std::string& run)
     const Json json = parse_json(*note, place);
     RunTimes times;
     const SettingsReader fields(json, nullptr, place);
-    describe(fields, times);
+    describe_times(fields, times);
     require_plain_line(times.begun, "time", place);
     require_plain_line(times.ended, "time", place);
     return times;

@@ -43,7 +43,7 @@ MotionRequest motion_of_branch(const BranchRequest& branch) {
 namespace {
 
 /// Sets what an axis takes from the model. @throws InputError for an unknown name, and without values
-void complete(Variation& axis, const Model& model, const SettingsReader& fields) {
+void complete_axis(Variation& axis, const Model& model, const SettingsReader& fields) {
     const auto parameter = model.find_independent_parameter(axis.name);
     const auto state = model.find_state(axis.name);
     if (!parameter && !state)
@@ -58,10 +58,10 @@ void complete(Variation& axis, const Model& model, const SettingsReader& fields)
         fields.fail("vary", "made of finite values");
 }
 
-void complete(StudyRun& run, const SettingsReader& fields) {
+void complete_stored(StudyRun& run, const SettingsReader& fields) {
     MotionRequest& motion = run.motion();
     for (Variation& axis : motion.axes)
-        complete(axis, run.model, fields);
+        complete_axis(axis, run.model, fields);
     if (!seeks_attractors(run.kind))
         motion.attractor.section = motion.transient.section, motion.attractor.bounds = motion.transient.bounds;
     else
@@ -108,7 +108,7 @@ void check_record(const StudyRun& run, const SettingsReader& fields) {
 }
 
 /// @throws InputError for settings that no study can have
-void check(const StudyRun& run, const SettingsReader& fields) {
+void check_run(const StudyRun& run, const SettingsReader& fields) {
     if (run.kind == RunKind::identify)
         return require_lines({&run.value_names, &run.parameters, &run.identify().records}, "text of a run", run.place);
     if (run.kind == RunKind::record)
@@ -160,7 +160,7 @@ StudyRun run_of(const AskedRun& asked, Model model) {
     if (name_of(run.kind) != asked.kind)
         fields.fail("kind", "that of the run");
     if (run.has_motions())
-        complete(run, fields);
+        complete_stored(run, fields);
     if (run.is_branch())
         run.branch().signature_place = run.place;
     if (run.kind == RunKind::identify)
@@ -169,7 +169,7 @@ StudyRun run_of(const AskedRun& asked, Model model) {
         run.start->place = run.place;
     run.parameters_place = run.place;
     take_units(run, asked.units);
-    check(run, fields);
+    check_run(run, fields);
     if (settings_of(run) != asked.settings) {
         if (asked.version != GRAZE_VERSION)
             throw InputError(run.place, "the stored settings say more than this version of graze knows",

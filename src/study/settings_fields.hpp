@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -152,7 +154,8 @@ public:
         for (std::size_t i = 0; i < items.size(); ++i) {
             SettingsWriter one;
             describe(one, items[i]);
-            text_ += (i > 0 ? "," : "") + one.text();
+            text_ += i > 0 ? "," : "";
+            append(one);
         }
         text_ += ']';
     }
@@ -161,17 +164,27 @@ public:
         SettingsWriter one;
         describe(one);
         begin(name);
-        text_ += one.text();
+        append(one);
     }
     std::string text() const { return "{" + text_ + "}"; }
 
 private:
+    void append(const SettingsWriter& other) {
+        text_ += '{';
+        text_ += other.text_;
+        text_ += '}';
+    }
     void begin(std::string_view name) { text_ += fmt::format("{}\"{}\":", text_.empty() ? "" : ",", name); }
     void write(double value) {
-        text_ += std::isfinite(value) ? fmt::format("{:.17g}", value)
-                 : std::isnan(value)  ? "null"
-                 : value > 0          ? "\"inf\""
-                                      : "\"-inf\"";
+        if (!std::isfinite(value)) {
+            text_ += std::isnan(value) ? "null" : value > 0 ? "\"inf\"" : "\"-inf\"";
+            return;
+        }
+        // As by "{:.17g}" of fmt, which takes three times as long: a run may have ten million values.
+        std::array<char, 32> digits;
+        const auto written =
+            std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 17);
+        text_.append(digits.data(), written.ptr);
     }
     void write(bool value) { text_ += value ? "true" : "false"; }
     void write(std::uint64_t value) { text_ += fmt::format("{}", value); }

@@ -84,7 +84,7 @@ void describe_runs(Fields& fields, Runs& runs) {
 }
 
 /// @throws InputError as for runs that were begun
-StudyRun run_of(const PlannedRun& run, const Place& place) {
+StudyRun planned_run(const PlannedRun& run, const Place& place) {
     require_file_name(run.asked.name, "name of a run", place);
     require_lines({&run.asked.units}, "unit of a value", place);
     AskedRun asked = run.asked;
@@ -134,14 +134,13 @@ std::string settings_of(const StudyPicture& picture) {
 }
 
 std::string fingerprint_of(std::string_view text) {
-    // FNV-1a with two seeds.
-    std::string result;
-    for (std::uint64_t value : {std::uint64_t{0xcbf29ce484222325u}, std::uint64_t{0x84222325cbf29ce4u}}) {
-        for (const char c : text)
-            value = (value ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-        result += fmt::format("{:016x}", value);
+    // FNV-1a with two seeds, side by side.
+    std::uint64_t first = 0xcbf29ce484222325u, second = 0x84222325cbf29ce4u;
+    for (const char c : text) {
+        first = (first ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+        second = (second ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
     }
-    return result;
+    return fmt::format("{:016x}{:016x}", first, second);
 }
 
 void store_study(const Study& study, ResultFile& file) {
@@ -200,7 +199,7 @@ Study stored_study(const ResultFile& file) {
         runs.push_back(stored_run(record));
     for (const PlannedRun& run : all)
         if (!is_in(runs, run.asked.name))
-            runs.push_back(run_of(run, place));
+            runs.push_back(planned_run(run, place));
     study.runs = in_order(std::move(runs));
     const auto is_there = [&](const std::string& name) { return is_in(study.runs, name); };
     const auto is_of_others = [&](const auto& one) {

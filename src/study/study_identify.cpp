@@ -10,8 +10,6 @@
 
 namespace graze {
 
-using What = IdentifyRequest::What;
-
 namespace {
 
 void require_parameter(const StudyReader& reader, const Model& model, const TomlEntry& entry, const std::string& name) {
@@ -35,7 +33,7 @@ void read_gives(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
         // From several records there are numbers of each record, under names with the record.
         const bool of_record =
             item.name.find(" of ") != std::string::npos || item.name.find("spread_between") != std::string::npos;
-        if (!of_record && run.identify().what != What::fit &&
+        if (!of_record && run.identify().what != IdentifyRequest::What::fit &&
             std::find(known.begin(), known.end(), item.name) == known.end())
             throw InputError(item.place, fmt::format("nothing of the name '{}' is found", item.name),
                              fmt::format("it finds {}", fmt::join(known, ", ")));
@@ -125,13 +123,13 @@ void require_what_is_needed(const StudyReader& reader, const StudyRun& run, cons
     if (request.records.empty())
         reader.fail(entry, fmt::format("{} has no records", entry.path),
                     "name runs of kind \"record\": records = \"NAME\"");
-    if (request.what == What::coupling && (request.gap.empty() || request.stiffness.empty()))
+    if (request.what == IdentifyRequest::What::coupling && (request.gap.empty() || request.stiffness.empty()))
         reader.fail(entry, fmt::format("{}: gap or stiffness are not known", entry.path),
                     "give gap and stiffness, such as gap = \"d\" and stiffness = \"m*w0^2\"");
     if (request.beta1.empty() != request.beta2.empty() || (!request.beta1.empty() && request.gap.empty()))
         reader.fail(entry, fmt::format("{}: a leakage inductance needs beta1, beta2 and the gap", entry.path),
                     "give all of them, or none");
-    if (request.what == What::fit && (request.unknowns.empty() || request.readings.empty()))
+    if (request.what == IdentifyRequest::What::fit && (request.unknowns.empty() || request.readings.empty()))
         reader.fail(entry, fmt::format("{} does not say what is to be found, or what was read", entry.path),
                     "give unknowns = [\"PARAMETER\"] and readings = [\"CHANNEL\"]");
 }
@@ -144,7 +142,7 @@ void read_estimate(const StudyReader& reader, StudyRun& run, const TomlEntry& en
         reader.fail(entry, fmt::format("{} does not say what is to be found", entry.path),
                     fmt::format("give what = \"{}\" or \"{}\"", fmt::join(kinds.begin(), kinds.end() - 1, "\", \""),
                                 kinds.back()));
-    run.identify().what = static_cast<What>(reader.choice(keys.at("what"), kinds));
+    run.identify().what = static_cast<IdentifyRequest::What>(reader.choice(keys.at("what"), kinds));
 }
 
 void complete_identify(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {

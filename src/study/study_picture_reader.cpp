@@ -66,7 +66,7 @@ std::vector<std::string> picture_kinds() {
 }
 
 /// One point, or a list of points, each given by one coordinate.
-void read_points(const StudyReader& reader, const TomlEntry& entry, StudyPicture& picture) {
+void read_marked_points(const StudyReader& reader, const TomlEntry& entry, StudyPicture& picture) {
     reader.each(reader.items(entry), [&](const TomlEntry& point) {
         reader.each_of(point, {}, [&](const TomlEntry& at) {
             require_plain_line(at.name, "coordinate", at.place);
@@ -91,7 +91,7 @@ void read_logarithmic(const StudyReader& reader, const TomlEntry& entry, StudyPi
     }
 }
 
-void read_keys(const StudyReader& reader, const TomlEntry& entry, StudyPicture& picture) {
+void read_picture_keys(const StudyReader& reader, const TomlEntry& entry, StudyPicture& picture) {
     const auto by = [&](auto read) { return [&, read](const TomlEntry& item) { read(reader, item, picture); }; };
     const auto one_of = [&](const std::vector<std::string>& words, std::string& word) {
         return [&, words](const TomlEntry& item) { word = words[reader.choice(item, words)]; };
@@ -107,7 +107,7 @@ void read_keys(const StudyReader& reader, const TomlEntry& entry, StudyPicture& 
                              {"x_range", reader.into(picture.x_range)},
                              {"y_range", reader.into(picture.y_range)},
                              {"fit", reader.into(picture.fit)},
-                             {"at", by(read_points)},
+                             {"at", by(read_marked_points)},
                              {"points", reader.into(picture.points)},
                              {"logarithmic", by(read_logarithmic)},
                              {"format", one_of(picture_formats(), picture.format)},
@@ -130,7 +130,7 @@ StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry) {
     picture.place = entry.place;
     Mistakes mistakes;
     mistakes.attempt([&] { require_file_name(picture.name, "name of a picture", entry.place); });
-    mistakes.attempt([&] { read_keys(reader, entry, picture); });
+    mistakes.attempt([&] { read_picture_keys(reader, entry, picture); });
     mistakes.attempt([&] {
         if (entry.node->is_table())
             check_keys_of_picture(reader, picture.kind, reader.toml().entries(reader.toml().table(entry), entry.path));

@@ -171,7 +171,7 @@ void check_draws(const StudyReader& reader, const StudyRun& run, const TomlEntry
 }
 
 /// Collects the keys of a run, and reads its kind and text.
-void read_keys(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, RunKeys& keys) {
+void read_run_keys(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, RunKeys& keys) {
     const std::vector<std::string>& known = names_of_keys();
     Mistakes mistakes;
     mistakes.attempt([&] { require_file_name(run.name, "name of a run", entry.place); });
@@ -255,7 +255,7 @@ std::optional<StudyRun> read_run(const StudyReader& reader, const TomlEntry& ent
     run.name = entry.name;
     run.place = entry.place;
     Mistakes mistakes;
-    const bool has_keys = mistakes.attempt([&] { read_keys(reader, run, entry, keys); });
+    const bool has_keys = mistakes.attempt([&] { read_run_keys(reader, run, entry, keys); });
     // A missing model is not reported where a key that could not be read may have named it.
     const bool says_model = keys.contains("model") || !defaults.model.empty();
     if (run.is_measured() && has_keys) {

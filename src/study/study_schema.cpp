@@ -14,7 +14,7 @@ namespace {
 using Texts = std::vector<std::string>;
 
 /// @param type empty: any
-void describe(SettingsWriter& fields, const std::string& type, const std::string& meaning) {
+void describe_type(SettingsWriter& fields, const std::string& type, const std::string& meaning) {
     if (!type.empty())
         fields.field("type", type);
     fields.field("description", meaning);
@@ -34,7 +34,7 @@ void describe_key(SettingsWriter& fields, const StudyKey& key) {
         fields.field(key.includes_least ? "minimum" : "exclusiveMinimum", *key.least);
     if (key.most)
         fields.field("maximum", *key.most);
-    describe(fields, "", key.standard.empty() ? key.meaning : key.meaning + " (" + key.standard + ")");
+    describe_type(fields, "", key.standard.empty() ? key.meaning : key.meaning + " (" + key.standard + ")");
 }
 
 void describe_kind(SettingsWriter& fields, const std::string& kind, const std::vector<StudyKey>& keys) {
@@ -53,8 +53,8 @@ void describe_kind(SettingsWriter& fields, const std::string& kind, const std::v
     });
 }
 
-void describe_runs(SettingsWriter& runs) {
-    describe(runs, "object", "named runs: what is computed");
+void describe_all_runs(SettingsWriter& runs) {
+    describe_type(runs, "object", "named runs: what is computed");
     runs.object("additionalProperties", [](SettingsWriter& run) {
         run.field("type", std::string("object"));
         run.field("required", Texts{"kind"});
@@ -77,7 +77,7 @@ std::string study_schema() {
     schema.field("required", Texts{"name", "runs"});
     schema.object("properties", [](SettingsWriter& all) {
         const auto property = [&](const char* name, const char* type, const char* meaning) {
-            all.object(name, [&](SettingsWriter& one) { describe(one, type, meaning); });
+            all.object(name, [&](SettingsWriter& one) { describe_type(one, type, meaning); });
         };
         property("name", "string", "of the study; its folder bears it");
         property("text", "string", "what it does");
@@ -85,7 +85,7 @@ std::string study_schema() {
         property("model", "string", "name of a shipped model, or the path of a model file relative to the study");
         property("set", "", "values of parameters, for all runs");
         property("values", "", "what is sampled, for all runs that do not say");
-        all.object("runs", [](SettingsWriter& runs) { describe_runs(runs); });
+        all.object("runs", [](SettingsWriter& runs) { describe_all_runs(runs); });
         property("pictures", "", "named pictures");
         property("tables", "", "named tables");
     });

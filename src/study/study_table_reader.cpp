@@ -13,7 +13,7 @@ namespace graze {
 namespace {
 
 /// "V", or "voltage = V". A comparison has no such sign by itself.
-StudyTable::Column column_of(const StudyReader& reader, const TomlEntry& entry) {
+StudyTable::Column written_column(const StudyReader& reader, const TomlEntry& entry) {
     const std::string text = reader.toml().line(entry);
     const std::size_t sign = text.find('=');
     const bool named =
@@ -28,7 +28,7 @@ StudyTable::Column column_of(const StudyReader& reader, const TomlEntry& entry) 
 
 void read_columns(const StudyReader& reader, const TomlEntry& entry, StudyTable& table) {
     reader.each(reader.items(entry), [&](const TomlEntry& item) {
-        const StudyTable::Column column = column_of(reader, item);
+        const StudyTable::Column column = written_column(reader, item);
         const std::vector<std::string> known = names_of(table.columns);
         if (std::find(known.begin(), known.end(), column.name) != known.end())
             reader.fail(item, fmt::format("there is another column '{}'", column.name),
@@ -55,7 +55,7 @@ void read_ratios(const StudyReader& reader, const TomlEntry& entry, StudyTable& 
 }
 
 /// Types, types with a number, or names that the table's runs have.
-void read_points(const StudyReader& reader, const TomlEntry& entry, const Study& study, StudyTable& table) {
+void read_point_rows(const StudyReader& reader, const TomlEntry& entry, const Study& study, StudyTable& table) {
     const auto is_name = [&](const std::string& text) {
         return std::any_of(table.runs.begin(), table.runs.end(), [&](const std::string& name) {
             const StudyRun* run = study.find_run(name);
@@ -97,7 +97,7 @@ bool find_runs(const Study& study, const StudyTable& table, const std::vector<st
     return runs.size() == table.runs.size();
 }
 
-void check_samplings(const StudyTable& table, const std::vector<const StudyRun*>& runs) {
+void check_table_samplings(const StudyTable& table, const std::vector<const StudyRun*>& runs) {
     std::vector<std::string> known;
     for (const StudyRun* run : runs)
         for (const std::string& name : run->sampling_names())
@@ -124,7 +124,7 @@ void check_runs(const StudyTable& table, const std::vector<const StudyRun*>& run
     if (branches && !table.samplings.empty())
         throw InputError(table.place, fmt::format("orbits of run '{}' are not sampled", table.runs.front()),
                          "leave `samples` out");
-    check_samplings(table, runs);
+    check_table_samplings(table, runs);
 }
 
 } // namespace
@@ -155,7 +155,7 @@ StudyTable read_table(const StudyReader& reader, const TomlEntry& entry, const S
                          "name parameters, values or monitors: columns = [\"NAME\"]");
     mistakes.attempt([&] {
         if (points)
-            read_points(reader, *points, study, table);
+            read_point_rows(reader, *points, study, table);
     });
     mistakes.attempt([&] {
         if (ratios)

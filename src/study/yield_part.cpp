@@ -44,7 +44,7 @@ void describe_solved(Bytes& bytes, Solved& solved) {
 }
 
 /// @throws InputError when a point does not fit its model; its orbit is checked by the solver
-void require_fitting(const SpecialPoint& point, const Model& model) {
+void require_fitting_point(const SpecialPoint& point, const Model& model) {
     require_index(point.segment, point.solution.orbit.segments(), "segment");
     require_index(point.event, std::max<std::size_t>(model.events.size(), 1), "event"); // 0 where there are none
     require_finite(point.time, "time of the point");
@@ -84,7 +84,7 @@ DeviceSolver device_solver_of(std::string_view bytes, const MakeExamination& mak
     reader(request);
     reader.require_end();
     const System system(parse_model(model, "model of a part of a yield"));
-    require_fitting(point, system.model());
+    require_fitting_point(point, system.model());
     const std::vector<ParameterId> others(places.begin(), places.end());
     DeviceExamination examination;
     if (!request.empty()) {

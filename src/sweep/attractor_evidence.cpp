@@ -19,15 +19,38 @@ constexpr std::size_t beside_orbits = 10; ///< factor by which the test for chao
 constexpr double last_share = 0.25;       ///< share of the returns, the last ones, with an exponent of their own
 constexpr double part_still = 0.25;       ///< least ratio of that exponent to the exponent over all returns
 
-/// Returns the labels of transitions, without those that change nothing; repetitions are written as powers.
-std::string signature_of(const Model& model, std::span<const std::uint32_t> contacts) {
-    std::vector<std::pair<std::string, std::size_t>> parts;
-    for (const std::uint32_t code : contacts) {
-        const Transition& transition = model.transitions[code / 2];
-        const bool sticking = code % 2 == 1;
-        if (!sticking && changes_nothing(transition))
+/// Turns a cyclic sequence so that it begins where its order is the first of all turns in the alphabet: whoever begins
+/// to read it elsewhere gets the same. Compares two beginnings, and leaves out those that a difference excludes, which
+/// takes a time in proportion to the length.
+void turn_to_first(std::vector<std::uint32_t>& cycle) {
+    const std::size_t length = cycle.size();
+    std::size_t one = 0, other = 1, same = 0;
+    while (one < length && other < length && same < length) {
+        const std::uint32_t a = cycle[(one + same) % length], b = cycle[(other + same) % length];
+        if (a == b) {
+            ++same;
             continue;
-        std::string name = transition.label + (sticking ? "(chatter)" : "");
+        }
+        (a > b ? one : other) += same + 1;
+        if (one == other)
+            ++other;
+        same = 0;
+    }
+    std::ranges::rotate(cycle, cycle.begin() + static_cast<std::ptrdiff_t>(std::min(one, other)));
+}
+
+/// Returns the labels of transitions, without those that change nothing; repetitions are written as powers.
+/// @param period in returns. Which return of several an orbit begins with is chance: the order is made unique.
+std::string signature_of(const Model& model, std::span<const std::uint32_t> contacts, std::size_t period) {
+    std::vector<std::uint32_t> seen;
+    for (const std::uint32_t code : contacts)
+        if (code % 2 == 1 || !changes_nothing(model.transitions[code / 2]))
+            seen.push_back(code);
+    if (period > 1)
+        turn_to_first(seen);
+    std::vector<std::pair<std::string, std::size_t>> parts;
+    for (const std::uint32_t code : seen) {
+        std::string name = model.transitions[code / 2].label + (code % 2 == 1 ? "(chatter)" : "");
         if (!parts.empty() && parts.back().first == name)
             ++parts.back().second;
         else
@@ -234,7 +257,7 @@ bool AttractorSearch::finish_periodic() {
     finish(Label::periodic);
     result_.period = finder_.period();
     result_.duration = finder_.duration();
-    result_.signature = signature_of(setting_->simulation.model(), finder_.contacts());
+    result_.signature = signature_of(setting_->simulation.model(), finder_.contacts(), result_.period);
     result_.symmetric = finder_.symmetric();
     result_.multipliers = finder_.multipliers();
     result_.residual = finder_.residual();

@@ -169,6 +169,7 @@ TEST(CycleMap, ArgumentsThatDoNotFitAreRefused) {
     MapMotionOptions motion;
     motion.recurrence = -1;
     EXPECT_THROW(motion.validate(), InputError);
+    EXPECT_THROW(CycleMap{}.projections(10'000'001), InputError);
 }
 
 } // namespace

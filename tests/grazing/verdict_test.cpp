@@ -314,6 +314,22 @@ TEST(Verdict, SlidingFollowsTheTentMap) {
     EXPECT_EQ(judged(1.2, 0.5).reason, "the orbit that touches is not stable itself");
 }
 
+TEST(Verdict, MotionsOfTheMapCanBeInterrupted) {
+    const CycleMap map = tent(0.4, -2);
+    MapMotionOptions options;
+    options.interrupted = [] { return false; };
+    EXPECT_FALSE(map_motion(map, -1, options).interrupted);
+    EXPECT_EQ(map_motion(map, -1, options).period, 2U);
+    for (const auto& [transient, cycles] : {std::pair(10'000'000, 1), std::pair(0, 10'000'000)}) {
+        options.transient = static_cast<std::size_t>(transient);
+        options.cycles = static_cast<std::size_t>(cycles);
+        int asked = 0;
+        options.interrupted = [&] { return ++asked == 3; };
+        EXPECT_TRUE(map_motion(map, -1, options).interrupted);
+        EXPECT_EQ(asked, 3);
+    }
+}
+
 /// The map scales with the clearance.
 TEST(Verdict, SlidingMotionsScaleWithTheClearance) {
     const CycleMap map = tent(0.4, -2);

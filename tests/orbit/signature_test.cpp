@@ -49,6 +49,7 @@ TEST(Signature, MistakesAreReportedWithTheirPlace) {
     EXPECT_NE(message("J1^99999 J8^99999").find("too many"), std::string::npos);
     EXPECT_NE(message("").find("empty"), std::string::npos);
     EXPECT_NE(message("J1;J8").find("does not belong"), std::string::npos);
+    EXPECT_NE(message("J1 \u00e9").find("'\u00e9' does not belong"), std::string::npos) << message("J1 \u00e9");
 }
 
 } // namespace

@@ -68,7 +68,7 @@ def lines_of_function(name: str, function, indent: str, decorator: str = "") -> 
     return [*lines, f"{indent}def {name}({arguments}) -> {result}: ..."]
 
 
-LEFT_OUT = {"__new__", "__doc__", "__module__", "__dict__", "__weakref__", "__annotations__"}
+LEFT_OUT = {"__new__", "__reduce__", "__doc__", "__module__", "__dict__", "__weakref__", "__annotations__"}
 
 
 def lines_of_class(kind) -> list:

@@ -111,3 +111,107 @@ def test_folders_that_cannot_be_written_are_told(tmp_path):
         with pytest.raises((graze.InputError, TypeError)):
             call(3)
     assert os.listdir(tmp_path) == ["file"]
+
+
+NO_CHARACTER = "\ud800"
+
+
+@pytest.fixture(scope="module")
+def branch():
+    model = graze.Model.shipped("impact-oscillator", omega=2.75)
+    return graze.orbit(model).follow(omega=(2.7, 2.8))
+
+
+@pytest.fixture(scope="module")
+def layout():
+    return graze.layout("mems-switch-device")
+
+
+def wrong_texts(branch, value):
+    """Calls with a text, or a path, that cannot be used."""
+    model, study = branch.model, graze.read_results(branch._store.path)
+    paths = [model.save, branch.save, branch.write_study, study.write_tables, study.write_pictures, graze.read_results,
+             graze.read_record, graze.run_study, graze.Experiment, graze.design, graze.layout, graze.load,
+             lambda path: graze.run_study("mems-switch", output=path), lambda path: graze.record(folder=path, files="x"),
+             lambda path: graze.layout("mems-switch-device", from_design=path)]
+    texts = [branch.table, branch.query, study.query, study.table, study.plot, graze.design_text,
+             lambda text: branch.table("points", label=text), lambda text: graze.points(branch, run=text),
+             lambda text: graze.points(branch, type=text), lambda text: graze.run_study("a\n" + text),
+             lambda text: branch["EP1"].tolerance(vary={text: 1}), lambda text: branch["EP1"].tolerance(vary={"e": text}),
+             lambda text: branch["EP1"].trip(parameter=text), lambda text: branch["EP1"].trip(until=text),
+             lambda text: branch["EP1"].grazing(parameter=text), lambda text: branch.figure(**{text: 1}),
+             lambda text: graze.sweep(model, vary={text: [1]}), lambda text: graze.sweep(model, vary={"omega": text}),
+             lambda text: graze.layout("mems-switch-device", set={"gap": text}),
+             *(lambda text, name=name: graze.simulate(model, **{name: text})
+               for name in ("time", "after", "every", "quantities", "sections", "extrema", "phase", "mode"))]
+    return paths if "\0" in value else paths + texts
+
+
+@pytest.mark.parametrize("value, words", [(NO_CHARACTER, "no characters"), ("x\0y", "no name of")])
+def test_texts_and_paths_that_cannot_be_used_are_told_alike(branch, tmp_path, monkeypatch, value, words):
+    monkeypatch.chdir(tmp_path)
+    for number, call in enumerate(wrong_texts(branch, value)):
+        with pytest.raises(graze.InputError) as told:
+            call(value)
+        assert words in str(told.value) and told.value.remedy, number
+    assert os.listdir() == []
+
+
+ARRAY = numpy.array([1.0, 2.0])
+
+
+@pytest.mark.parametrize("place, call", [
+    *((name, lambda branch, layout, name=name: graze.simulate(branch.model, **{name: ARRAY}))
+      for name in ("derivatives", "dense", "set", "skip", "minima", "samples", "time", "mode")),
+    ("mask", lambda branch, layout: layout.gds(ARRAY)), ("mask", lambda branch, layout: layout.polygons(3)),
+    ("despite_rules", lambda branch, layout: layout.gds(despite_rules=ARRAY)),
+    ("despite_rules", lambda branch, layout: layout.recipe(despite_rules=ARRAY)),
+    ("despite_rules", lambda branch, layout: layout.wafers(1, despite_rules=ARRAY)),
+    ("wafer", lambda branch, layout: graze.layout("mems-switch-device", wafer=ARRAY)),
+    ("models", lambda branch, layout: graze.run_study("a\n", models=ARRAY)),
+    ("models, x", lambda branch, layout: graze.run_study("a\n", models={"x": 3})),
+    ("set", lambda branch, layout: graze.run_study("a\n", set=3)),
+    ("only", lambda branch, layout: graze.run_study("mems-switch", only=[1])),
+    ("units", lambda branch, layout: graze.MeasuredRecord([0, 1], {"x": [1, 2]}, units=ARRAY)),
+    ("units", lambda branch, layout: graze.MeasuredRecord([0, 1], {"x": [1, 2]}, units=["x"])),
+    ("threads", lambda branch, layout: branch.resume(threads=10**30)),
+    ("what", lambda branch, layout: branch.table(None)), ("sql", lambda branch, layout: branch.query(None)),
+    ("run", lambda branch, layout: graze.points(branch, run=3)), ("name", lambda branch, layout: graze.design_text(None)),
+    ("axes", lambda branch, layout: layout.plot(axes="x")), ("axes", lambda branch, layout: layout.plot_steps(axes="x")),
+    ("also", lambda branch, layout: branch.figure(also=[None])), ("over", lambda branch, layout: branch.figure(over=[None]))])
+def test_arguments_of_other_kinds_are_told_with_their_names(branch, layout, place, call):
+    with pytest.raises(graze.InputError) as told:
+        call(branch, layout)
+    assert place in str(told.value) and told.value.remedy
+
+
+@pytest.mark.parametrize("read", [graze.design, graze.layout, graze.Experiment, graze.acquire, graze.load, graze.run_study,
+                                  graze.read_record])
+def test_devices_and_pipes_are_no_texts(tmp_path, read):
+    os.mkfifo(tmp_path / "pipe.toml")
+    for path, words in (("/dev/zero", "this is a device"), (tmp_path / "pipe.toml", "this is a pipe")):
+        with pytest.raises(graze.FileError, match=words):
+            read(path)
+
+
+def test_texts_that_are_too_long_are_told(tmp_path):
+    with open(tmp_path / "long.toml", "wb") as file:
+        file.truncate((16 << 20) + 1)
+    with pytest.raises(graze.FileError, match="more than 16777216 bytes"):
+        graze.design(tmp_path / "long.toml")
+
+
+@pytest.mark.parametrize("name, words, thing", [
+    ("omega", "set model.parameters.omega", lambda branch: branch.model),
+    ("x", "set model.initial.x", lambda branch: branch.model),
+    ("parameterz", "did you mean 'parameters'", lambda branch: branch.model),
+    ("tolerance", r"Simulation\(model, tolerance=", lambda branch: graze.Simulation(branch.model)),
+    ("periood", "no attribute 'periood'", lambda branch: branch), ("label_", "label_", lambda branch: branch["EP1"]),
+    ("endng", "endng", lambda branch: graze.simulate(branch.model, periods=1)),
+    ("omga", "omga", lambda branch: branch.points),
+    ("holdz", "holdz", lambda branch: graze.layout("mems-switch-device")),
+    ("rate", "rate", lambda branch: graze.bench("electromagnetic-testbed")),
+    ("unit", "unit", lambda branch: graze.MeasuredRecord([0, 1], {"x": [1, 2]}))])
+def test_attributes_that_there_are_not_cannot_be_set(branch, name, words, thing):
+    with pytest.raises(AttributeError, match=words):
+        setattr(thing(branch), name, 99)

@@ -11,6 +11,7 @@ import re
 import pytest
 
 import graze
+from graze._design_text import DesignText
 
 ROOT = pathlib.Path(__file__).parents[2]
 QUICK = {"yield_": {"devices": 50}, "points": {"curve": 5, "plane": 3}, "trip": {"overshoots": [1e-2]}}
@@ -171,11 +172,19 @@ def test_progress_and_interruption():
     (dict(design="mems-switch", yield_={"devices": -1}), "devices"),
     (dict(design="mems-switch", model="absent"), "absent"),
     (dict(text="name = "), "not TOML"),
+    (dict(design="mems-switch", wantd=None), "design.., wantd: unknown key 'wantd'; did you mean 'wanted'"),
+    (dict(design="mems-switch", wanted={"vlaue": None}), "design.., wanted: unknown key 'vlaue'"),
 ])
 def test_wrong_uses(given, words):
     with pytest.raises(graze.InputError, match=words) as raised:
         graze.design(**given)
     assert not isinstance(raised.value, graze.InternalError)
+
+
+def test_known_keys_may_be_not_given():
+    one, other = (DesignText("mems-switch", None, keys, "design()").text
+                  for keys in ({"wanted": None, "yield_": None}, {"wanted": None, "trip": {"until": None}}))
+    assert "wanted" not in one and "wanted" not in other
 
 
 def test_mistakes_are_told_with_the_keyword():

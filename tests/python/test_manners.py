@@ -337,3 +337,23 @@ def test_memory_stays_flat_over_many_small_calls():
     print(f"memory has grown by {grown} bytes")
     # One byte a call that is not given back could not be seen; forty are.
     assert grown < 4_000_000
+
+
+COMPUTING = {
+    "simulate": lambda model: graze.simulate(model, periods=3), "orbit": lambda model: graze.orbit(model),
+    "sweep": lambda model: graze.sweep(model, vary={"omega": [2.7]}), "run_study": lambda model: graze.run_study("mems-switch"),
+    "design": lambda model: graze.design("mems-switch"), "layout": lambda model: graze.layout("mems-switch-device")}
+
+
+@pytest.mark.parametrize("what", COMPUTING)
+def test_ctrl_c_before_computing_begins_is_an_interruption_too(what, monkeypatch):
+    def interrupted(*arguments, **keys):
+        raise KeyboardInterrupt
+
+    model = graze.Model.shipped("impact-oscillator", omega=2.8)
+    for place in ("graze._simulation.Simulation", "graze._runs.Ways", "graze._study.Ways", "graze._design.DesignText",
+                  "graze._layout.DesignText"):
+        monkeypatch.setattr(place, interrupted)
+    with pytest.raises(graze.Interrupted) as stopped:
+        COMPUTING[what](model)
+    assert stopped.value.run is None

@@ -344,3 +344,38 @@ def test_wrong_arguments_are_told(model):
     with pytest.raises(graze.InputError) as told:
         graze.simulate(model, periods=-1)
     assert str(told.value).startswith("periods: ")
+
+
+@pytest.mark.parametrize("given, words", [
+    ({"at": "x"}, "at: 'x' has other things than numbers"), ({"at": ["1", "2"]}, "at: .* other things than numbers"),
+    ({"at": [True]}, "at: "), ({"at": [None]}, "at: "), ({"at": 5}, "0 dimensions"),
+    ({"at": numpy.zeros(10_000_001)}, "at: there are 10000001 times; give 10000000 or fewer"),
+    ({"state": 3}, "state: 3 .* list of numbers: of x, v, theta"), ({"state": {"x": "1"}}, "state, x"),
+    ({"state": {"x": [1]}}, "state, x"), ({"time": [1]}, "time")])
+def test_wrong_times_and_states_are_told_with_their_names(model, given, words):
+    with pytest.raises(graze.InputError, match=words):
+        graze.simulate(model, **given)
+
+
+def test_dense_motions_take_numbers_only(model):
+    motion = graze.simulate(model, time=1, dense=True)
+    assert motion([[0, 1]]).shape == (1, 2, 3)
+    for wrong in ("x", [None], [[1], [1, 2]]):
+        with pytest.raises(graze.InputError, match="times: "):
+            motion(wrong)
+
+
+def test_derivatives_by_parameters_hold_the_initial_state():
+    model = graze.Model("decay", states={"x": "2*a"}, parameters={"a": 1.0}, rates={"x": "-x"})
+    motion = graze.simulate(model, time=1, derivatives="a")
+    assert motion.derivatives["d_a"].tolist() == [0.0]
+
+
+def test_samples_cannot_be_changed(model):
+    motion = graze.simulate(model, time=1)
+    x = motion["x"]
+    with pytest.raises(ValueError, match="read-only"):
+        x -= x.mean()
+    motion.to_xarray()["x"].values[:] = 0
+    motion.to_pandas()["x"].values[:] = 0
+    assert abs(motion["x"]).max() > 0

@@ -319,3 +319,31 @@ def test_places_that_cannot_be_written_are_told(study, tmp_path, monkeypatch):
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "nowhere"))
     with pytest.raises(graze.FileError):
         graze.run_study(STUDY)
+
+
+def test_damaged_texts_are_told(study, tmp_path, monkeypatch):
+    run = graze.follow(study["rest"], along={"omega": (3.9, 4.1)})
+    run.save(tmp_path / "whole.sqlite")
+    assert sorted(os.listdir(tmp_path)) == ["whole.sqlite", "whole.sqlite.lock"]
+    contents = (tmp_path / "whole.sqlite").read_bytes()
+    read = graze.read_results(tmp_path / "whole.sqlite")[run.name]
+    with pytest.raises(KeyError):
+        read["XX1"]
+    place = contents.rindex(read.settings[:40].encode()) + 20
+    (tmp_path / "damaged.sqlite").write_bytes(contents[:place] + b"\xff" + contents[place + 1:])
+    with pytest.raises(graze.FileError, match="damaged.sqlite: the file is damaged"):
+        graze.read_results(tmp_path / "damaged.sqlite")[run.name]
+
+    def unreadable(*arguments, **keys):
+        raise graze.FileError("the file is damaged", file="whole.sqlite")
+
+    monkeypatch.setattr(read._store, "read", unreadable)
+    for look in (lambda: read["EP1"], lambda: "EP1" in read):
+        with pytest.raises(graze.FileError):  # and no KeyError
+            look()
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="there is no device without room")
+def test_a_full_device_is_told():
+    with pytest.raises(graze.FileError, match="No space left"):
+        graze.Model.shipped("impact-oscillator").save("/dev/full")

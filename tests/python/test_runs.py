@@ -612,3 +612,84 @@ vary = { omega = { from = 2.7, to = 2.8, points = 400 } }
     assert run.status == "unfinished"
     graze.run_study(text, output=tmp_path)
     assert run.status == "complete" and len(run.points) == 400
+
+
+def test_unknown_keys_are_told_with_what_was_meant(oscillator, branch):
+    orbit = graze.orbit(oscillator, set={"omega": 4}, from_={"x": -0.07})
+    for call, words in ((lambda: orbit.follow(omga=(1, 2)), r"follow\(\), omga: .*did you mean 'omega'\?"),
+                        (lambda: graze.sweep(oscillator, vary={"omega": [2.7]}, foo=None), r"sweep\(\), foo: "),
+                        (lambda: graze.sweep(oscillator, vary={"omega": [2.7]}, rungs=None), r"sweep\(\), rungs: "),
+                        (lambda: graze.sweep(oscillator, vary=[1]), "vary must be a dict, not a list; give a dict"),
+                        (lambda: graze.follow(oscillator, along={"omega": {"from": 1}}), "must be a list, not a dict"),
+                        (lambda: graze.sweep(oscillator, vary={"omega": {"from": 1}}), r'write \{"from": A, "to": B'),
+                        (lambda: graze.follow(oscillator), r'give along=\{"PARAMETER": \[LEAST, GREATEST\]\}')):
+        with pytest.raises(graze.StudyError, match=words) as told:
+            call()
+        assert len(str(told.value)) < 600
+
+
+def test_a_number_of_points_may_be_a_whole_number_of_any_kind(oscillator):
+    for points in (3, 3.0, numpy.float64(3)):
+        assert len(graze.sweep(oscillator, vary={"omega": (2.7, 2.8, points)}, cycles=50).points) == 3
+    with pytest.raises(graze.StudyError, match="whole number"):
+        graze.sweep(oscillator, vary={"omega": (2.7, 2.8, 2.5)}, cycles=50)
+
+
+def test_an_orbit_at_a_parameter_that_is_named_like_a_key():
+    threads = graze.Parameter("threads", 1.0)
+    x, v, phase = graze.states(x=1, v=0, phase=0)
+    phase = graze.State("phase", 0, period="2*pi")
+    model = graze.Model("m", states=[x, v, phase], parameters=[threads],
+                        rates={x: v, v: -0.2 * v - threads * x + graze.cos(phase), phase: 1},
+                        sections={"beat": {"state": phase, "value": 0}})
+    branch = graze.orbit(model).follow(along={"threads": (0.5, 3)})
+    for found in (branch.at({"threads": 2}), branch.at({"threads": 2}, threads=1)):
+        assert found.parameters["threads"] == 2
+    for wrong in ({}, 3, {"nowhere": 1}):
+        with pytest.raises(graze.InputError):
+            branch.at(wrong)
+
+
+def test_a_picture_of_an_ensemble_says_which_motion_it_shows(oscillator):
+    ensemble = graze.ensemble(oscillator, vary={"omega": [2.8, 2.7], "x": [0, -0.1]}, periods=3)
+    figure = ensemble.figure()
+    shown = figure.panels[0]["series"][0]["points"][-1]
+    assert figure.title == "omega = 2.8, x = 0" and shown[1] == ensemble.points["end_x"][-1]
+    assert ensemble.figure(title="mine").title == "mine" and ensemble.figure(at={"omega": 2.7}).title == ""
+
+
+def test_values_of_a_list_are_taken_in_rising_order(oscillator):
+    assert graze.sweep(oscillator, vary={"omega": [2.8, 2.7]}, cycles=50).points["omega"].tolist() == [2.7, 2.8]
+
+
+def test_orbits_that_there_are_not(branch):
+    for wrong in (-100, 10**6, 2**70, numpy.array(2.0), numpy.array([1.0, 2.0]), 1.5, True, "XX1", "\ud800"):
+        with pytest.raises(KeyError) as told:
+            branch[wrong]
+        assert "-86" not in str(told.value) and wrong not in branch
+    with pytest.raises(KeyError, match="there is no orbit -100"):
+        branch[-100]
+
+
+def test_no_folder_is_left_by_an_interruption_while_it_is_made(tmp_path, monkeypatch):
+    from graze._output import OwnFolder
+
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    made = os.mkdir
+
+    def interrupted(*arguments):
+        made(*arguments)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("os.mkdir", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        OwnFolder().path
+    gc.collect()
+    assert os.listdir(tmp_path) == []
+    monkeypatch.setattr("secrets.token_hex", lambda size: "other")
+    monkeypatch.setattr("os.mkdir", made)
+    made(tmp_path / "graze-other")
+    with pytest.raises(graze.FileError):
+        OwnFolder().path
+    gc.collect()
+    assert os.listdir(tmp_path) == ["graze-other"]  # of another process

@@ -125,6 +125,27 @@ def test_a_column_lives_on_without_its_table_and_run():
     junk = [numpy.full(1000, 7.0) for _ in range(200)]  # would take the place of freed memory
     assert column.tolist() == kept and part.tolist() == kept_part
     assert numpy.allclose(kept, numpy.linspace(2.7, 2.75, 6), rtol=1e-14)
-    column[0] = 5.0  # it is the caller's own
-    assert column[0] == 5.0
+    with pytest.raises(ValueError, match="read-only"):
+        column[0] = 5.0
     assert len(junk) == 200
+
+
+def test_columns_can_be_read_only_and_copies_can_be_changed(table):
+    given = numpy.arange(3.0)
+    columns = [graze.Table(["x"], [given])["x"], table["x"], table[1:]["x"], table[table.n > 0]["x"], table[[0]].x,
+               pickle.loads(pickle.dumps(table)).x, copy.copy(table).x, copy.deepcopy(table).x]
+    for column in columns:
+        with pytest.raises(ValueError, match="read-only"):
+            column -= 1
+    given[0] = 7  # what a caller gave remains the caller's
+    for free in (table.to_pandas()["x"].values, table.to_xarray()["x"].values, table.array, table.x.copy()):
+        free[0] = free[1]
+    assert table.x[0] == 1 and table.record(-1) == table.record(2)
+
+
+@pytest.mark.parametrize("number, kind, words", [
+    (None, TypeError, "number: None is no number of a row"), ("x", TypeError, "'x'"), (1.5, TypeError, "1.5"),
+    (2**63, IndexError, "there are 3"), (3, IndexError, "there is no row 3"), (-4, IndexError, "there is no row -4")])
+def test_rows_that_are_not_there(table, number, kind, words):
+    with pytest.raises(kind, match=words):
+        table.record(number)

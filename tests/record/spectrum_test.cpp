@@ -71,15 +71,34 @@ TEST(Spectrum, IsZeroForConstantOrTooFewSamples) {
     EXPECT_TRUE(spectrum({}, 1).frequencies.empty());
 }
 
-// Lengths for Bluestein's algorithm, odd and prime ones too.
+// Lengths for Bluestein's algorithm, odd and prime ones too, powers of two, and lengths beyond the processor's cache.
 TEST(Spectrum, EqualsTheDirectSumForManySamples) {
-    for (const std::size_t count : {513U, 1009U, 1024U, 6000U}) {
+    for (const std::size_t count : {513U, 1009U, 1024U, 6000U, 20'011U, 32'768U}) {
         const Spectrum parts = spectrum(waves(count, 5, {{3, 0.25}, {200, 2}}), 6.25);
         ASSERT_EQ(parts.amplitudes.size(), count / 2);
         for (std::size_t k = 1; k <= parts.amplitudes.size(); ++k)
             EXPECT_NEAR(parts.amplitudes[k - 1], k == 3 ? 0.25 : k == 200 ? 2 : 0, 2e-13) << count << ' ' << k;
         EXPECT_NEAR(parts.frequencies[199], 200 * 6.25 / static_cast<double>(count), 1e-14 * 200);
     }
+}
+
+TEST(Spectrum, IsEmptyWhenItWasInterrupted) {
+    for (const std::size_t count : {20'000U, 32'768U}) {
+        const std::vector<double> samples = waves(count, 5, {{3, 0.25}});
+        int asked = 0;
+        const auto later = [&] { return ++asked == 2; };
+        EXPECT_TRUE(spectrum(samples, 1, later).amplitudes.empty());
+        EXPECT_EQ(asked, 2);
+        EXPECT_EQ(spectrum(samples, 1, [] { return false; }).amplitudes, spectrum(samples, 1).amplitudes);
+    }
+    const auto make = [] {
+        return StoredSamples(named({"v"}), sampled(1000, 10'000, {[](double) { return 1.0; }}), 777);
+    };
+    StoredSamples source = make(), again = make();
+    int asked = 0;
+    EXPECT_TRUE(averaged_spectrum(source, 0, 256, [&] { return ++asked == 3; }).amplitudes.empty());
+    EXPECT_EQ(asked, 3);
+    EXPECT_EQ(averaged_spectrum(again, 0, 256, [] { return false; }).amplitudes.size(), 128U);
 }
 
 TEST(Spectrum, AveragedOverALongRecordKeepsAmplitudesAndFrequencies) {

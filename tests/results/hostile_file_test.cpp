@@ -1,6 +1,7 @@
 // Result files and queries from untrusted sources.
 
 #include "graze/base/input_error.hpp"
+#include "graze/results/query_interruption.hpp"
 
 #include "base/temporary_folder.hpp"
 #include "run_of_model.hpp"
@@ -151,6 +152,39 @@ TEST_F(HostileFile, QueriesOnlyRead) {
             EXPECT_TRUE(file.query(sql).next()) << sql;
         EXPECT_EQ(file.point_count("r"), 20u);
     }
+}
+
+TEST_F(HostileFile, QueriesEndWhenTheirThreadIsAskedTo) {
+    const std::string endless = "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT max(i) FROM n";
+    ResultFile file(path, ResultFile::Access::read);
+    const auto begun = std::chrono::steady_clock::now();
+    {
+        int asked = 0;
+        const QueryInterruption outer([&] { return ++asked > 3; });
+        {
+            const QueryInterruption inner([] { return false; });
+            EXPECT_FALSE(QueryInterruption::requested());
+        }
+        try {
+            file.query(endless).next();
+            ADD_FAILURE() << "it ends by itself";
+        } catch (const InputError& error) {
+            EXPECT_EQ(error.problem(), "the query was interrupted");
+        }
+        EXPECT_GT(asked, 3);
+    }
+    EXPECT_FALSE(QueryInterruption::requested());
+    EXPECT_EQ(file.point_count("r"), 20u);
+    EXPECT_LT(std::chrono::steady_clock::now() - begun, 20s);
+}
+
+TEST_F(HostileFile, PathsWithAZeroByteAreRefused) {
+    const std::string cut = path + std::string("\0ignored", 8);
+    EXPECT_THROW(ResultFile(cut, ResultFile::Access::read), InputError);
+    EXPECT_THROW(ResultFile(cut, ResultFile::Access::write), InputError);
+    ResultFile file(path, ResultFile::Access::write);
+    EXPECT_THROW(file.copy_to(path + std::string(".copy\0ignored", 13)), InputError);
+    EXPECT_FALSE(std::filesystem::exists(path + ".copy"));
 }
 
 TEST_F(HostileFile, EndlessQueriesAreInterrupted) {

@@ -108,6 +108,21 @@ TEST(AttractorSearch, BouncingBallDoublesItsPeriodAtTheClosedFormThreshold) {
     }
 }
 
+TEST(AttractorSearch, OneOrbitOfManyReturnsHasOneSignature) {
+    // Which of the 24 returns these motions settle with depends on where they begin.
+    Model model = load_model("impact-oscillator");
+    model.set_parameter("omega", 2.75);
+    for (const double x : {-1.18, -0.67, 0.04}) {
+        std::vector<double> state = model.initial_state();
+        state[0] = x;
+        const PointResult result = settle(model, {.section = "phase0"}, state);
+        ASSERT_EQ(result.label, Label::periodic) << x;
+        EXPECT_EQ(result.period, 24U) << x;
+        EXPECT_NEAR(result.duration, 24 * 2 * pi / 2.75, 1e-9) << x;
+        EXPECT_EQ(result.signature, "impact^84 impact(chatter) release") << x;
+    }
+}
+
 TEST(AttractorSearch, LinearImpactOscillatorHasTheExponentOfItsClosedForm) {
     // Between impacts areas shrink by exp(-2 zeta t), at each impact by e^2. With one impact per period T of the force
     // the product of the multipliers is e^2 exp(-2 zeta T); if they are complex, each exponent is half its logarithm.

@@ -76,7 +76,7 @@ struct CycleMap {
     bool is_at_touch(double time, double period) const;
     /// Returns g P^k B for k = 1, 2, ..., count: the change of the clearance k cycles after a contact, per unit of its
     /// approach speed (per unit of depth^(3/2) or of depth for compliant contacts or sliding). A negative one leads to
-    /// another contact.
+    /// another contact. @throws InputError for a count above ten million
     std::vector<double> projections(std::size_t count) const;
     /// Returns the effect of impacts in all previous cycles on the clearance, per unit of approach speed, if all
     /// impacts are equal (sign 1) or alternate in strength (sign -1): the sum of sign^(k-1) g P^k B over k, times det(1

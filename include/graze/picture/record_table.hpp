@@ -6,6 +6,7 @@
 #include "graze/results/table.hpp"
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,6 +27,7 @@ struct RecordTableRequest {
     ImpactWindow impacts{};
     std::size_t part = 0; ///< of spectra: averaged over parts of so many samples; 0: the whole record is one part
     bool drawn = false;   ///< a figure is wanted, for which the rows of all samples need not be kept
+    std::function<bool()> interrupted{}; ///< of spectra: called now and then; returns true to stop, without rows
 };
 
 /// Names of the tables, in the order of RecordTableRequest::What.

@@ -92,7 +92,7 @@ struct PointResult {
     Label label = Label::unsettled;
     std::size_t period = 0; ///< period of the orbit in returns; 1 for an equilibrium with the section of a clock
     double duration = 0;    ///< period in units of time
-    /// Labels of the transitions in one period, repetitions as in "impact^2 release"; empty when not periodic.
+    /// Labels of the transitions in one period (in a unique order) as in "impact^2 release"; empty when not periodic.
     std::string signature;
     std::optional<bool> symmetric; ///< whether a periodic orbit is its own image under the model's (first) symmetry
     std::vector<std::complex<double>> multipliers; ///< of the return map, largest first
