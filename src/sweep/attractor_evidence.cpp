@@ -36,7 +36,7 @@ void turn_to_first(std::vector<std::uint32_t>& cycle) {
             ++other;
         same = 0;
     }
-    std::ranges::rotate(cycle, cycle.begin() + static_cast<std::ptrdiff_t>(std::min(one, other)));
+    std::rotate(cycle.begin(), cycle.begin() + static_cast<std::ptrdiff_t>(std::min(one, other)), cycle.end());
 }
 
 /// Returns the labels of transitions, without those that change nothing; repetitions are written as powers.
