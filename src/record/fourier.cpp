@@ -32,12 +32,13 @@ class Transform {
 public:
     /// @param interrupted has to live as long
     Transform(std::size_t count, const std::function<bool()>& interrupted) : turns_(count), interrupted_(interrupted) {
-        for (std::size_t i = count / 2; i < count; ++i) {
+        const std::size_t half = count / 2;
+        for (std::size_t i = half; i < count; ++i) {
             ask(interrupted, i);
-            turns_[i] = std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(i - count / 2) /
-                                            static_cast<double>(count));
+            turns_[i] =
+                std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(i - half) / static_cast<double>(count));
         }
-        for (std::size_t i = count / 2; i-- > 1;)
+        for (std::size_t i = half; i-- > 1;)
             turns_[i] = turns_[2 * i];
     }
 
