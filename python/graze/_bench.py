@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from typing import Any, Callable, Dict, List, Optional, Tuple, Union
+from typing import Any, Dict, List, Optional, Tuple, Union
 
 from . import _arguments as checked, _graze
 from ._attributes import Fixed
-from ._errors import InputError, InstrumentError, Interrupted
+from ._errors import InputError, InstrumentError
 from ._model import Model, load
 from ._output import OwnFolder
+from ._progress import interruptible
 from ._record import MeasuredRecord
 
 _CHANNEL_NUMBERS = ("noise", "bias", "drift", "range")
@@ -109,7 +110,8 @@ class Bench(Fixed):
     def wait(self, seconds: float) -> None:
         """Lets simulated time pass."""
         seconds = checked.number(seconds, "seconds", least=0)
-        self._use(lambda: self._core.pass_(seconds))
+        with interruptible():
+            self._core.pass_(seconds)
 
     def record(self, time: float, *, rate: float = 1000.0) -> MeasuredRecord:
         """Takes samples for some simulated seconds, at a rate in samples per second; the first of them now. Times count from
@@ -118,17 +120,12 @@ class Bench(Fixed):
         self._core.rate = rate
         seconds = checked.number(time, "time", above=0)
         count = checked.whole(round(seconds * rate), "the number of samples", 1, 1_000_000_000)
-        times, columns = self._use(lambda: self._core.sample(count))
+        with interruptible():
+            times, columns = self._core.sample(count)
         if len(times) < count:
             raise InstrumentError(f"the motion has ended after {len(times)} of {count} samples: {self.ended}",
                                   "make another bench")
         return MeasuredRecord(times, dict(zip(self.channels, columns)), units=self.units, time_unit="s", name="bench")
-
-    def _use(self, work: Callable[[], Any]) -> Any:
-        try:
-            return work()
-        except KeyboardInterrupt:
-            raise Interrupted() from None
 
     @property
     def time(self) -> float:

@@ -3,7 +3,7 @@
 #include "base/random_number.hpp"
 #include "base/thread_team.hpp"
 #include "base/turns.hpp"
-#include "branch/solved_devices.hpp"
+#include "branch/examined_yield.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 

@@ -1,7 +1,7 @@
 #include "graze/layout/wafer_yield.hpp"
 
 #include "base/turns.hpp"
-#include "branch/solved_devices.hpp"
+#include "branch/examined_yield.hpp"
 #include "graze/base/input_error.hpp"
 #include "layout/wafer_examination.hpp"
 

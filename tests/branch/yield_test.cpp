@@ -1,6 +1,6 @@
 #include "graze/branch/yield.hpp"
 
-#include "branch/solved_devices.hpp"
+#include "branch/examined_yield.hpp"
 #include "driven_oscillator.hpp"
 #include "graze/base/input_error.hpp"
 

@@ -92,6 +92,16 @@ def test_a_thread_pool_gives_the_same_bits(oscillator, by_one_thread):
             same(made(kind, oscillator, executor=executor), by_one_thread[kind])
 
 
+def killing(executor):
+    """A function of progress that kills one process of a pool when something is done."""
+    def kill(state):
+        if state["done"] > 20:
+            for process in list(executor._processes.values())[:1]:
+                os.kill(process.pid, signal.SIGKILL)
+
+    return kill
+
+
 class Here:
     """An executor that does what it is given at once, and counts. `fails` is called with each task's number."""
 
@@ -241,14 +251,9 @@ def test_ctrl_c_ends_a_run_soon(oscillator):
 
 
 def test_a_lost_process_is_told_and_the_run_goes_on_with_another_pool(oscillator, longer_by_one_thread):
-    def kill(state):
-        if state["done"] > 20:
-            for process in list(executor._processes.values())[:1]:
-                os.kill(process.pid, signal.SIGKILL)
-
     with pool("spawn") as executor:
         with pytest.raises(graze.WorkersLost) as told:
-            longer(oscillator, executor=executor, progress=kill)
+            longer(oscillator, executor=executor, progress=killing(executor))
         assert "another executor" in told.value.remedy
         run = told.value.run
         kept = len(run.points)

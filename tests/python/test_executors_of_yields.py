@@ -1,8 +1,6 @@
 """Yields whose devices are solved for by executors are the same, to the last bit, as those of one thread."""
 
-import os
 import pickle
-import signal
 import sys
 import time
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -11,7 +9,7 @@ import pytest
 
 import graze
 from graze import _graze
-from test_executors import Here, carried_out, pool
+from test_executors import Here, carried_out, killing, pool
 
 VARY = {"delta": "4%", "omega": (0.002, "uniform")}
 QUICK = dict(points={"curve": 3, "plane": 2}, yield_={"devices": 60})
@@ -87,14 +85,9 @@ def test_an_interrupted_yield_has_the_devices_of_the_parts_that_came(touch):
 
 
 def test_a_lost_process_is_told(touch):
-    def kill(state):
-        if state["done"] > 20:
-            for process in list(executor._processes.values())[:1]:
-                os.kill(process.pid, signal.SIGKILL)
-
     with pool("spawn") as executor:
         with pytest.raises(graze.WorkersLost) as told:
-            yield_of(touch, 300_000, executor=executor, progress=kill)
+            yield_of(touch, 300_000, executor=executor, progress=killing(executor))
     assert "another executor" in told.value.remedy
     assert 20 < len(told.value.run.devices) < 300_000
 
