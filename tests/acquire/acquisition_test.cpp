@@ -8,8 +8,7 @@
 #include <gmock/gmock.h>
 #include <thread>
 
-namespace graze::testing {
-namespace {
+namespace graze::testing::acquisition_test {
 
 using ::testing::HasSubstr;
 
@@ -22,8 +21,6 @@ AcquisitionReport run_on(ScpiBench& bench, const std::string& text, const std::s
     RecordFolder records(folder, experiment, 0);
     return acquire(experiment, line, device, records, options);
 }
-
-} // namespace
 
 TEST(Acquisition, RecordsAllLevelsAndLeavesTheOutputSafe) {
     const TemporaryFolder folder;
@@ -191,4 +188,4 @@ TEST(Acquisition, ChecksTheChannelsOfTheDeviceBeforeAnythingIsSent) {
     EXPECT_FALSE(bench.generator().is_remote());
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::acquisition_test

@@ -8,8 +8,7 @@
 #include <gmock/gmock.h>
 #include <random>
 
-namespace graze::testing {
-namespace {
+namespace graze::testing::experiment_test {
 
 using ::testing::HasSubstr;
 
@@ -17,8 +16,6 @@ using ::testing::HasSubstr;
 std::string message(const std::string& part, const std::string& by) {
     return message_of([&] { parse_experiment(replaced(experiment_text(), part, by), "e.toml"); });
 }
-
-} // namespace
 
 TEST(Experiment, HasTheLevelsOfItsSweep) {
     const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
@@ -118,4 +115,4 @@ TEST(Experiment, RefusesUnknownKeys) {
     }
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::experiment_test

@@ -8,8 +8,7 @@
 #include <algorithm>
 #include <gmock/gmock.h>
 
-namespace graze::testing {
-namespace {
+namespace graze::testing::generator_client_test {
 
 using ::testing::HasSubstr;
 
@@ -70,8 +69,6 @@ struct Arbitrary {
     GeneratorOptions given_;
     GeneratorClient client;
 };
-
-} // namespace
 
 TEST(GeneratorClient, SetsValuesAndReadsThemBack) {
     AlteredGenerator altered;
@@ -448,4 +445,4 @@ TEST(GeneratorClient, MakesAPlainSineOfTheBenchGenerator) {
     EXPECT_EQ(altered.generator.execute("VOLT:UNIT?;:FUNC:SHAP?;:AM:STAT?"), "VPP;SIN;0");
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::generator_client_test

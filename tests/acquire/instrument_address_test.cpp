@@ -2,16 +2,13 @@
 
 #include <gtest/gtest.h>
 
-namespace graze {
-namespace {
+namespace graze::instrument_address_test {
 
 void expect_address(const InstrumentAddress& address, bool is_tcp, const std::string& name, unsigned short port) {
     EXPECT_EQ(address.is_tcp, is_tcp);
     EXPECT_EQ(address.name, name);
     EXPECT_EQ(address.port, port);
 }
-
-} // namespace
 
 TEST(InstrumentAddress, IsReadFromVisaNames) {
     for (const char* name : {"ASRL/dev/ttyUSB0::INSTR", "ASRL/dev/ttyUSB0::instr", "asrl/dev/ttyUSB0::INSTR"})
@@ -40,4 +37,4 @@ TEST(InstrumentAddress, IsRefusedIfItCannotBeUsed) {
         EXPECT_THROW(generator_address(name, {}), InputError) << name;
 }
 
-} // namespace graze
+} // namespace graze::instrument_address_test

@@ -5,8 +5,7 @@
 
 #include <gmock/gmock.h>
 
-namespace graze::testing {
-namespace {
+namespace graze::testing::record_folder_test {
 
 using ::testing::HasSubstr;
 
@@ -28,8 +27,6 @@ void commit(RecordFolder& records, const Level& level) {
 std::string message(const std::string& path) {
     return message_of([&] { RecordFolder(path, experiment, 0); });
 }
-
-} // namespace
 
 TEST(RecordFolder, ListsCommittedRecords) {
     const TemporaryFolder folder;
@@ -127,4 +124,4 @@ TEST(RecordFolder, RefusesAnInvalidList) {
     EXPECT_THAT(message("/dev/null/x"), HasSubstr("it cannot be opened as a folder"));
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::record_folder_test

@@ -5,8 +5,7 @@
 #include <gmock/gmock.h>
 #include <thread>
 
-namespace graze::testing {
-namespace {
+namespace graze::testing::sample_device_test {
 
 using ::testing::HasSubstr;
 
@@ -34,8 +33,6 @@ Samples taken(ScriptedLine& line) {
         all.append(part);
     return all;
 }
-
-} // namespace
 
 TEST(SampleDevice, ReadsRows) {
     ScriptedLine line = device_with("", "");
@@ -117,4 +114,4 @@ TEST(SampleDevice, ReportsWhetherItCanReturnToAMark) {
     EXPECT_FALSE(TextSampleDevice(borrowed(hardware), 0.02, {}).mark(7));
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::sample_device_test

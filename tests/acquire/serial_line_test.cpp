@@ -19,8 +19,7 @@
 #include <thread>
 #include <unistd.h>
 
-namespace graze::testing {
-namespace {
+namespace graze::testing::serial_line_test {
 
 using ::testing::HasSubstr;
 
@@ -163,8 +162,6 @@ private:
     std::atomic<bool> stop_{false};
     std::thread thread_;
 };
-
-} // namespace
 
 TEST(SerialLine, HasTheRequestedSettings) {
     FarEnd far;
@@ -343,4 +340,4 @@ TEST(Acquisition, MakesTheOutputSafeAfterSamplesStop) {
     EXPECT_EQ(served.output().amplitude, 0.1);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::serial_line_test

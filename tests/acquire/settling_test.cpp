@@ -5,8 +5,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace graze {
-namespace {
+namespace graze::settling_test {
 
 std::size_t period_of(const std::function<double(int)>& value, int sections) {
     RepeatWatch watch({1e-3}, 3, 4);
@@ -14,8 +13,6 @@ std::size_t period_of(const std::function<double(int)>& value, int sections) {
         watch.add({value(i)});
     return watch.period();
 }
-
-} // namespace
 
 TEST(RepeatWatch, FindsTheShortestPeriod) {
     EXPECT_EQ(period_of([](int) { return 1.0; }, 4), 1U);
@@ -32,4 +29,4 @@ TEST(RepeatWatch, RefusesInvalidNumbers) {
     EXPECT_THROW(period_of([](int) { return std::nan(""); }, 20), InputError);
 }
 
-} // namespace graze
+} // namespace graze::settling_test

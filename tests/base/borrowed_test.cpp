@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace graze {
-namespace {
+namespace graze::borrowed_test {
 
 TEST(Borrowed, SharesWithoutOwning) {
     int number = 1;
@@ -17,5 +16,4 @@ TEST(Borrowed, SharesWithoutOwning) {
     EXPECT_EQ(number, 2);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::borrowed_test

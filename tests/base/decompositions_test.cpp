@@ -7,8 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::decompositions_test {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
@@ -186,5 +185,4 @@ TEST(Decompositions, MatricesWithNaNHaveNoEigenvalues) {
     EXPECT_TRUE(eigenvalues_or_nan(Eigen::Matrix2d::Constant(nan)).hasNaN());
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::decompositions_test

@@ -7,8 +7,7 @@
 
 #include <functional>
 
-namespace graze {
-namespace {
+namespace graze::error_test {
 
 TEST(Place, TextLeavesOutWhatIsNotKnown) {
     EXPECT_EQ((Place{"model.toml", 3, 7}.text()), "model.toml:3:7");
@@ -52,5 +51,4 @@ TEST(Error, HasAKindHoweverItIsCaught) {
               "file");
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::error_test

@@ -5,8 +5,7 @@
 #include <random>
 #include <string>
 
-namespace graze {
-namespace {
+namespace graze::file_name_test {
 
 TEST(FileName, IsSafeInPathsAndCommands) {
     for (const char* name : {"a", "fig-5-14d", "a.b", "A_1", "0"})
@@ -31,5 +30,4 @@ TEST(FileName, IsSafeInPathsAndCommands) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::file_name_test

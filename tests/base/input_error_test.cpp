@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace graze {
-namespace {
+namespace graze::input_error_test {
 
 TEST(InputError, WorksWithoutPlaceOrRemedy) {
     EXPECT_STREQ(InputError("no such state", "").what(), "no such state");
@@ -16,5 +15,4 @@ TEST(FileError, IsAnInputErrorWhosePlaceIsTheFile) {
     EXPECT_EQ(error.kind(), ErrorKind::file);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::input_error_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace graze {
-namespace {
+namespace graze::letter_case_test {
 
 TEST(LetterCase, ChangesOnlyAsciiLetters) {
     EXPECT_EQ(in_small_letters("Outp:LOAD? 9.9E+37"), "outp:load? 9.9e+37");
@@ -15,5 +14,4 @@ TEST(LetterCase, ChangesOnlyAsciiLetters) {
     EXPECT_EQ(in_capitals(""), "");
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::letter_case_test

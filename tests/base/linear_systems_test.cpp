@@ -5,8 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace graze {
-namespace {
+namespace graze::linear_systems_test {
 
 constexpr double round_off = 1000 * std::numeric_limits<double>::epsilon();
 
@@ -80,5 +79,4 @@ TEST(LinearSystems, ShortestSolutionLiesInTheRowSpace) {
     EXPECT_EQ(PivotedQR(small, 1e-3).rank(), 1);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::linear_systems_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace graze {
-namespace {
+namespace graze::median_test {
 
 TEST(Median, IsTheMiddleOneOrTheUpperOfTwo) {
     EXPECT_EQ(median({4}), 4);
@@ -11,5 +10,4 @@ TEST(Median, IsTheMiddleOneOrTheUpperOfTwo) {
     EXPECT_EQ(median({5, 1, 1, 7}), 5);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::median_test

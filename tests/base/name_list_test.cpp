@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace graze::testing {
+namespace graze::testing::name_list_test {
 
 TEST(NameList, ShowsAllOfAFewNamesAndTheNearestOfMany) {
     EXPECT_EQ(name_list({}), "");
@@ -30,4 +30,4 @@ TEST(NameList, FindsTheNearestName) {
     EXPECT_EQ(nearest_name(std::string(100000, 'a'), names), "");
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::name_list_test

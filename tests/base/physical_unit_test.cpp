@@ -6,8 +6,7 @@
 
 #include <utility>
 
-namespace graze {
-namespace {
+namespace graze::physical_unit_test {
 
 double in(double value, const char* from, const char* to) {
     return converted(value, physical_unit(from), physical_unit(to));
@@ -59,5 +58,4 @@ TEST(PhysicalUnit, RefusesTextsThatAreNotUnits) {
     EXPECT_THROW(in(1, "deg", "rad"), InputError); // the factor is not a power of ten
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::physical_unit_test

@@ -6,8 +6,7 @@
 
 #include <random>
 
-namespace graze {
-namespace {
+namespace graze::printable_test {
 
 /// Returns random bytes among which the special ones are frequent.
 std::string random_text(std::mt19937& random) {
@@ -81,5 +80,4 @@ TEST(Printable, ErrorMessagesAreOneShortLine) {
     EXPECT_NE(message.find("bytes left out"), std::string::npos);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::printable_test

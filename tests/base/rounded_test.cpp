@@ -5,8 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace graze {
-namespace {
+namespace graze::rounded_test {
 
 TEST(Rounded, IsTheNearestDecimal) {
     EXPECT_EQ(rounded(0.1 + 0.2, 13), 0.3);
@@ -27,5 +26,4 @@ TEST(Rounded, KeepsExtremeAndNonFiniteValues) {
     EXPECT_TRUE(std::isnan(rounded(std::nan(""), 6)));
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::rounded_test

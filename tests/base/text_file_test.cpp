@@ -8,8 +8,7 @@
 
 #include <filesystem>
 
-namespace graze {
-namespace {
+namespace graze::text_file_test {
 
 std::string refusal(const std::string& path, std::size_t most = 1000) {
     return testing::message_of([&] { read_text_file(path, "model file", most); });
@@ -32,5 +31,4 @@ TEST(TextFile, ReadsOnlyRegularFiles) {
     EXPECT_NE(refusal(std::string(10'000, 'x')).find("cannot be read"), std::string::npos);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::text_file_test

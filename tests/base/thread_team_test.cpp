@@ -4,8 +4,7 @@
 
 #include <stdexcept>
 
-namespace graze {
-namespace {
+namespace graze::thread_team_test {
 
 TEST(ThreadTeam, WorksOnSoManyThreads) {
     for (const std::size_t threads : {1U, 4U}) {
@@ -37,5 +36,4 @@ TEST(ThreadTeam, ThrowsTheFirstExceptionAfterAllHaveEnded) {
     EXPECT_GE(ended, 1);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::thread_team_test

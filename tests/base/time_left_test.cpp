@@ -7,8 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::time_left_test {
 
 /// Feeds the durations of points and calls `look` with each estimate.
 template <class Look>
@@ -66,5 +65,4 @@ TEST(TimeLeft, NeverRisesAndIsMarkedAsABoundWherePointsBecomeSlower) {
     });
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::time_left_test

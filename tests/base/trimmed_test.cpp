@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace graze {
-namespace {
+namespace graze::trimmed_test {
 
 TEST(Trimmed, RemovesBlanksAtBothEnds) {
     EXPECT_EQ(trimmed(" \ta b\t "), "a b");
@@ -14,5 +13,4 @@ TEST(Trimmed, RemovesBlanksAtBothEnds) {
     EXPECT_EQ(trimmed(" a\n", " \n"), "a");
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::trimmed_test

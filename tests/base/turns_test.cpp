@@ -6,8 +6,7 @@
 #include <thread>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::turns_test {
 
 TEST(Turns, AreTakenByOneThreadAtATime) {
     const Turns turns;
@@ -70,5 +69,4 @@ TEST(Turns, OfNothingAreNothing) {
     EXPECT_FALSE(Turns().asking({}));
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::turns_test

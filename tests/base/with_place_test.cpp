@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace graze {
-namespace {
+namespace graze::with_place_test {
 
 InputError mistake_of(const InputError& found, const std::string& about = {}) {
     try {
@@ -30,5 +29,4 @@ TEST(WithPlace, KeepsOtherPlacesAndReturnsTheResult) {
     EXPECT_EQ(with_place({}, [] { return 7; }), 7);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::with_place_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace graze {
-namespace {
+namespace graze::xml_text_test {
 
 TEST(XmlText, EscapesSpecialCharacters) {
     EXPECT_EQ(xml_text("a < b && c > \"d\" ]]> 'e'"), "a &lt; b &amp;&amp; c &gt; &quot;d&quot; ]]&gt; 'e'");
@@ -27,5 +26,4 @@ TEST(XmlText, KeepsWellFormedDocuments) {
     EXPECT_EQ(well_formed("<text>a ]]> b ]]]> c</text>"), "<text>a ]]&gt; b ]]]&gt; c</text>");
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::xml_text_test

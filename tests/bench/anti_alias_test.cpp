@@ -4,8 +4,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::anti_alias_test {
 
 /// Gain of the filter for a wave, in the steady state.
 double gain(double corner, double frequency) {
@@ -21,8 +20,6 @@ double gain(double corner, double frequency) {
     }
     return 2 * std::hypot(sine, cosine) / taken;
 }
-
-} // namespace
 
 TEST(AntiAlias, HasTheGainOfAButterworthFilter) {
     // |H|^2 = 1/(1 + (tan(pi f)/tan(pi f_c))^8); the samples hold whole periods, so only round-off remains.
@@ -40,4 +37,4 @@ TEST(AntiAlias, SettlesAtAGivenValue) {
         EXPECT_NEAR(filter.filtered(3.5), 3.5, 1e-12);
 }
 
-} // namespace graze
+} // namespace graze::anti_alias_test

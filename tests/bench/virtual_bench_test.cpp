@@ -8,8 +8,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::virtual_bench_test {
 
 BenchSettings testbed() {
     return testing::testbed({"V=voltage:V", "I", "q", "v"});
@@ -35,8 +34,6 @@ Samples taken(VirtualBench& bench, std::size_t count) {
     bench.sample(count, samples);
     return samples;
 }
-
-} // namespace
 
 TEST(VirtualBench, GivesTheWaveOfTheGeneratorWithContinuousPhase) {
     VirtualBench bench(wave());
@@ -184,4 +181,4 @@ TEST(VirtualBench, RefusesInvalidSettings) {
         EXPECT_THROW(bench.set_rate(rate), InputError);
 }
 
-} // namespace graze
+} // namespace graze::virtual_bench_test

@@ -7,8 +7,7 @@
 #include <random>
 #include <tuple>
 
-namespace graze {
-namespace {
+namespace graze::border_collision_test {
 
 using namespace graze::testing;
 
@@ -82,5 +81,4 @@ TEST(BorderCollision, BranchLeadsToTheFixedPointBeyondOrBackOnTheOtherOne) {
     EXPECT_LT(folds, 35);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::border_collision_test

@@ -10,8 +10,7 @@
 #include <numbers>
 #include <optional>
 
-namespace graze {
-namespace {
+namespace graze::bounds_test {
 
 using namespace graze::testing;
 using std::numbers::pi;
@@ -147,5 +146,4 @@ TEST(Bounds, OrbitsThatLeaveATouchNearABoundBeginWithinIt) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::bounds_test

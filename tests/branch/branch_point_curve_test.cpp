@@ -11,8 +11,7 @@
 #include <cmath>
 #include <string>
 
-namespace graze {
-namespace {
+namespace graze::branch_point_curve_test {
 
 using namespace graze::testing;
 
@@ -102,5 +101,4 @@ TEST(BranchPointCurve, EqualsTheSymmetryBreakingOfAnUndeclaredSymmetry) {
     EXPECT_NEAR(ends[0], ends[1], 1e-9);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::branch_point_curve_test

@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace graze {
-namespace {
+namespace graze::buck_test {
 
 using namespace graze::testing;
 
@@ -60,5 +59,4 @@ TEST(BuckConverter, StartOnTheSwitchingSurfaceIsNotAGrazing) {
     EXPECT_TRUE(of_type(two, PointType::grazing).empty()) << names(two);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::buck_test

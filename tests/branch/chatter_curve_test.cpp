@@ -8,8 +8,7 @@
 
 #include <cmath>
 
-namespace graze {
-namespace {
+namespace graze::chatter_curve_test {
 
 using namespace graze::testing;
 
@@ -82,5 +81,4 @@ TEST(ChatterCurve, SettingsThatDoNotApplyAreRefused) {
     refused([](BranchSettings& settings) { settings.least = 1.1; });
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::chatter_curve_test

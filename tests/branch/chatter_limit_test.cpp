@@ -11,8 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::chatter_limit_test {
 
 using namespace graze::testing;
 
@@ -256,5 +255,4 @@ TEST(ChatterLimit, PointsThatAreNotALadderAreRefused) {
     EXPECT_THROW(chatter_limit(System(model), folds, model.independent_parameter("s")), InputError);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::chatter_limit_test

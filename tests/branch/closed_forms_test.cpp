@@ -9,8 +9,7 @@
 #include <functional>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::closed_forms_test {
 
 using namespace graze::testing;
 using std::numbers::pi;
@@ -239,5 +238,4 @@ TEST(ClosedForms, ImpactOscillatorGainsAndLosesItsImpactAtTheSameGap) {
     EXPECT_EQ(to_rest.points.back().parameter, 0);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::closed_forms_test

@@ -14,8 +14,7 @@
 
 #include <cmath>
 
-namespace graze {
-namespace {
+namespace graze::collocation_branch_test {
 
 using namespace graze::testing;
 
@@ -77,5 +76,4 @@ TEST(CollocationBranch, MicrobeamWithoutStopHasThePublishedFold) {
                          0.036662363851355, 1e-10);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::collocation_branch_test

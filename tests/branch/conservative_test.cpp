@@ -9,8 +9,7 @@
 #include <complex>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::conservative_test {
 
 using namespace graze::testing;
 using std::numbers::pi;
@@ -230,5 +229,4 @@ TEST(Conservative, FreeBodyInASymmetricBoxHasNoSymmetryBreaking) {
     EXPECT_EQ(names(branch), "BD") << branch.detail;
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::conservative_test

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::continuation_test {
 
 DenseProblem circle(bool exact) {
     const auto residual = [](std::span<const double> u, std::span<double> f) {
@@ -159,5 +158,4 @@ TEST(Continuation, CanBeStoppedAndResumedAfterAnyStep) {
         EXPECT_NEAR(second.point().u[static_cast<std::size_t>(i)], whole.point().u[static_cast<std::size_t>(i)], 1e-12);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::continuation_test

@@ -10,8 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::curve_start_test {
 
 SpecialPoint with_multipliers(PointType type, std::vector<std::complex<double>> multipliers) {
     SpecialPoint point;
@@ -61,5 +60,4 @@ TEST(CurveStart, WrongTypesAreRefusedWithTheMultipliers) {
     EXPECT_THROW(as_type(with_multipliers(PointType::fold, {1}), PointType::vanishing), InputError);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::curve_start_test

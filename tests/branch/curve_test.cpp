@@ -12,8 +12,7 @@
 #include <limits>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::curve_test {
 
 using namespace graze::testing;
 using std::numbers::pi;
@@ -451,5 +450,4 @@ TEST(Curves, PointsThatCannotBeKeptAndMissingParametersAreRefused) {
     EXPECT_THROW(settings.validate(model), InputError);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::curve_test

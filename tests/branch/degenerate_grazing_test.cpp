@@ -15,8 +15,7 @@
 #include <complex>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::degenerate_grazing_test {
 
 using namespace graze::testing;
 using std::numbers::pi;
@@ -318,5 +317,4 @@ TEST(DegenerateGrazing, OtherPointsAreRefusedWithTheReason) {
     EXPECT_THROW(on_impacting_curve(system, all.first, PointType::fold, all.settings), InputError);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::degenerate_grazing_test

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace graze {
-namespace {
+namespace graze::drifting_test {
 
 using namespace graze::testing;
 
@@ -89,5 +88,4 @@ TEST(Drifting, MicroactuatorContinuesFromTheFlipWithOneImpact) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::drifting_test

@@ -7,8 +7,7 @@
 
 #include <cmath>
 
-namespace graze {
-namespace {
+namespace graze::end_grazing_test {
 
 using namespace graze::testing;
 
@@ -86,5 +85,4 @@ TEST(EndGrazing, OrbitsOnTheOtherSideAreInadmissible) {
     EXPECT_NE(curve.detail.find("'front'"), std::string::npos) << curve.detail;
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::end_grazing_test

@@ -12,8 +12,7 @@
 
 #include <cmath>
 
-namespace graze {
-namespace {
+namespace graze::equilibrium_folds_test {
 
 using namespace graze::testing;
 
@@ -26,8 +25,6 @@ Model plate(double gap, double stiffness, double time) {
                    .clock = fmt::format("{:.17g}", 1 / time)}
         .model();
 }
-
-} // namespace
 
 TEST(EquilibriumFolds, AreFollowedInTwoParametersInAnyUnits) {
     for (const double gap : {1.0, 1e-9, 1e6})
@@ -59,4 +56,4 @@ TEST(EquilibriumFolds, AreFollowedInTwoParametersInAnyUnits) {
         }
 }
 
-} // namespace graze
+} // namespace graze::equilibrium_folds_test

@@ -9,8 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::held_monitor_test {
 
 using namespace graze::testing;
 
@@ -124,5 +123,4 @@ TEST(HeldMonitors, FixedMonitorsDoNotSlowABranchDown) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::held_monitor_test

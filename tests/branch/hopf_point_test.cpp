@@ -9,8 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::hopf_point_test {
 
 using namespace graze::testing;
 using std::numbers::pi;
@@ -59,5 +58,4 @@ TEST(HopfPoint, BrusselatorHasItsHopfPointForAnySection) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::hopf_point_test

@@ -10,8 +10,7 @@
 #include <numbers>
 #include <string>
 
-namespace graze {
-namespace {
+namespace graze::joints_test {
 
 using namespace graze::testing;
 
@@ -201,5 +200,4 @@ TEST(Joints, LabelsDetermineTheirTypes) {
         EXPECT_FALSE(is_point_label(bad)) << bad;
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::joints_test

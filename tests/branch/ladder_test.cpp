@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::ladder_test {
 
 using namespace graze::testing;
 
@@ -56,5 +55,4 @@ TEST(Ladder, MayBeginAtAnyPointOfACurveOfTouches) {
     EXPECT_NEAR(ladder.grazings()[2].parameter, known.grazings()[2].parameter, 1e-12);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::ladder_test

@@ -6,8 +6,7 @@
 
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::located_value_test {
 
 using namespace graze::testing;
 
@@ -189,5 +188,4 @@ TEST(LocatedValue, ImpossibleArgumentsAreRefused) {
     EXPECT_FALSE(of_mass(std::vector{0.0}).problem.empty());
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::located_value_test

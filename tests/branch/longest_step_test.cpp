@@ -8,8 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::longest_step_test {
 
 using namespace graze::testing;
 using std::numbers::pi;
@@ -88,5 +87,4 @@ TEST(LongestStep, DoesNotPassOverFolds) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::longest_step_test

@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::missed_points_test {
 
 using namespace graze::testing;
 
@@ -138,5 +137,4 @@ TEST(MissedPoints, ContinuationDoesNotJumpToANearbyBranch) {
     EXPECT_NEAR(transcritical.points.back().solution.orbit.starts[0][0], 0.4, 1e-8);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::missed_points_test

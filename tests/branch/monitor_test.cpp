@@ -7,8 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::monitor_test {
 
 using namespace graze::testing;
 
@@ -208,5 +207,4 @@ TEST(MonitorsOfBranches, FixedMonitorsMustMatchTheFreeParameters) {
     EXPECT_THROW(follow_branch(System(model), solution.orbit, settings), InputError);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::monitor_test

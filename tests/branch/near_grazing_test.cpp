@@ -8,8 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::near_grazing_test {
 
 using namespace graze::testing;
 using std::numbers::pi;
@@ -175,5 +174,4 @@ TEST(NearGrazing, FunctionThatStartsToRiseFromItsSurfaceIsNotATouch) {
     EXPECT_NEAR(down.special.at(0).parameter, -1, 1e-12);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::near_grazing_test

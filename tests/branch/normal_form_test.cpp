@@ -11,8 +11,7 @@
 #include <complex>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::normal_form_test {
 
 using namespace graze::testing;
 using Complex = std::complex<double>;
@@ -371,5 +370,4 @@ TEST(NormalForm, CoefficientPredictsTheOpeningOfDoubledOrbits) {
     EXPECT_LT(nearest, 0.01) << farthest;
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::normal_form_test

@@ -8,8 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::normal_forms_test {
 
 using namespace graze::testing;
 using std::numbers::pi;
@@ -303,5 +302,4 @@ TEST(NormalForms, DuffingHasTheFoldsOfItsResponse) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::normal_forms_test

@@ -8,8 +8,7 @@
 #include <cmath>
 #include <functional>
 
-namespace graze {
-namespace {
+namespace graze::orbit_branch_test {
 
 using namespace graze::testing;
 
@@ -287,5 +286,4 @@ TEST(OrbitBranch, CrossingNearAVanishingContactIsKept) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::orbit_branch_test

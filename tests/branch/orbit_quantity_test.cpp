@@ -17,8 +17,7 @@
 #include <memory>
 #include <random>
 
-namespace graze {
-namespace {
+namespace graze::orbit_quantity_test {
 
 using namespace graze::testing;
 
@@ -159,5 +158,4 @@ TEST(OrbitQuantities, ConditionsVanishAtLocatedPoints) {
     EXPECT_EQ(grazings, 2U); // where the contact appears and where it disappears
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::orbit_quantity_test

@@ -9,8 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::order_curves_test {
 
 using namespace graze::testing;
 
@@ -281,5 +280,4 @@ TEST(OrderCurves, TouchesPassTheEndsOfAHalfOrbit) {
     EXPECT_GT(after, 3U);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::order_curves_test

@@ -10,8 +10,7 @@
 #include <complex>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::published_branches_test {
 
 using namespace graze::testing;
 using std::numbers::pi;
@@ -264,5 +263,4 @@ TEST(PublishedBranches, MicrobeamHasItsPublishedFoldsWithAndWithoutStop) {
     EXPECT_NEAR(soft.special.back().parameter, 0.036662363851355, 1e-13);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::published_branches_test

@@ -7,8 +7,7 @@
 
 #include <cmath>
 
-namespace graze {
-namespace {
+namespace graze::returning_test {
 
 using namespace graze::testing;
 
@@ -57,5 +56,4 @@ TEST(ReturningBranches, EndAtTheSecondPointOfTheSimplerBranch) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::returning_test

@@ -8,8 +8,7 @@
 #include <cmath>
 #include <iostream>
 
-namespace graze {
-namespace {
+namespace graze::sensitivity_condition_test {
 
 using namespace graze::testing;
 
@@ -72,5 +71,4 @@ TEST(SensitivityCondition, GradientIsAccurateToEightDigits) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::sensitivity_condition_test

@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace graze {
-namespace {
+namespace graze::shipped_cycles_test {
 
 using namespace graze::testing;
 
@@ -58,5 +57,4 @@ TEST(ShippedCycles, ErrorFallsWithTheNextPowerOfTheDepth) {
     expect_rates(shaker, cycle_map(System(shaker), resting, touches.front(), options), 1e-5);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::shipped_cycles_test

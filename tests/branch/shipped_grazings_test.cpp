@@ -14,8 +14,7 @@
 #include <random>
 #include <string>
 
-namespace graze {
-namespace {
+namespace graze::shipped_grazings_test {
 
 using namespace graze::testing;
 
@@ -271,5 +270,4 @@ TEST(ShippedGrazings, MicrobeamHasTheFoldOfTheCubic) {
     EXPECT_LT(before, 0.05);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::shipped_grazings_test

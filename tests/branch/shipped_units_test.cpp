@@ -8,8 +8,7 @@
 
 #include <map>
 
-namespace graze {
-namespace {
+namespace graze::shipped_units_test {
 
 using namespace graze::testing;
 
@@ -98,5 +97,4 @@ TEST(Units, ShippedModelDoesNotDependOnUnits) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::shipped_units_test

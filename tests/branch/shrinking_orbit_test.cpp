@@ -9,8 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::shrinking_orbit_test {
 
 using namespace graze::testing;
 using std::numbers::pi;
@@ -132,5 +131,4 @@ TEST(ShrinkingOrbit, BranchWithAClockDoesNotEnd) {
     EXPECT_EQ(branch.outcome, BranchOutcome::bound);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::shrinking_orbit_test

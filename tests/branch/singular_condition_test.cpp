@@ -13,8 +13,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::singular_condition_test {
 
 using namespace graze::testing;
 
@@ -137,5 +136,4 @@ TEST(SingularConditions, ConditionsVanishAtLocatedPointsOfSymmetricOrbits) {
     EXPECT_GE(losses, 1U);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::singular_condition_test

@@ -11,8 +11,7 @@
 #include <random>
 #include <string>
 
-namespace graze {
-namespace {
+namespace graze::sliding_test {
 
 using namespace graze::testing;
 
@@ -212,5 +211,4 @@ TEST(SlidingSlow, VerdictsAgreeWithSimulationOnManyRandomBelts) {
     EXPECT_GE(counts["agreed"], 90);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::sliding_test

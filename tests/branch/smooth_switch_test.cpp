@@ -9,8 +9,7 @@
 #include <complex>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::smooth_switch_test {
 
 using namespace graze::testing;
 using std::numbers::pi;
@@ -116,5 +115,4 @@ TEST(SmoothSwitch, SecondContactAppearsAndDisappears) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::smooth_switch_test

@@ -8,8 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::subharmonic_curve_test {
 
 using namespace graze::testing;
 
@@ -74,5 +73,4 @@ TEST(SubharmonicCurves, FoldsAndFlipsOfSubharmonicsHaveTheirClosedForms) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::subharmonic_curve_test

@@ -8,8 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::touched_section_test {
 
 using namespace graze::testing;
 using std::numbers::pi;
@@ -176,5 +175,4 @@ TEST(TouchedSection, CurvesOfTouchesContinueWhereTheSectionIsTheTouch) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::touched_section_test

@@ -6,8 +6,7 @@
 
 #include <cmath>
 
-namespace graze {
-namespace {
+namespace graze::units_test {
 
 using namespace graze::testing;
 
@@ -55,5 +54,4 @@ TEST(Units, BranchDoesNotDependOnUnits) {
     EXPECT_FALSE(reference.special.empty());
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::units_test

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::user_models_test {
 
 using namespace graze::testing;
 using std::numbers::pi;
@@ -139,5 +138,4 @@ TEST(UserModels, BilinearOscillatorLeavesTheStiffSideAtATouch) {
     EXPECT_EQ(soft.points.back().parameter, -10);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::user_models_test

@@ -10,8 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace graze {
-namespace {
+namespace graze::van_der_pol_curve_test {
 
 using namespace graze::testing;
 
@@ -107,5 +106,4 @@ TEST(VanDerPolCurves, FoldsMeetTorusPointsInAOneToOneResonance) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::van_der_pol_curve_test

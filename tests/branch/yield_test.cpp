@@ -10,8 +10,7 @@
 #include <numeric>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::yield_test {
 
 using namespace graze::testing;
 
@@ -222,5 +221,4 @@ TEST(WilsonInterval, LimitsSolveTheDefiningEquation) {
     EXPECT_THROW(wilson_interval(2, 1, 0.95), InputError);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::yield_test

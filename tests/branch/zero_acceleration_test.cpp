@@ -8,8 +8,7 @@
 #include <numbers>
 #include <string>
 
-namespace graze {
-namespace {
+namespace graze::zero_acceleration_test {
 
 using namespace graze::testing;
 
@@ -161,5 +160,4 @@ INSTANTIATE_TEST_SUITE_P(units, ZeroAcceleration, ::testing::Values(Units{1, 1},
                              return std::string(of.index == 0 ? "one" : of.index == 1 ? "nano" : "kilo");
                          });
 
-} // namespace
-} // namespace graze
+} // namespace graze::zero_acceleration_test

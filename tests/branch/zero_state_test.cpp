@@ -8,8 +8,7 @@
 #include <cmath>
 #include <string>
 
-namespace graze {
-namespace {
+namespace graze::zero_state_test {
 
 using namespace graze::testing;
 
@@ -69,5 +68,4 @@ TEST(ZeroStateOfSettledOrbit, SymmetricOrbitsAreRecognised) {
     EXPECT_NEAR(branch.points.back().parameter, 0.5, 1e-12);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::zero_state_test

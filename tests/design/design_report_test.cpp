@@ -7,16 +7,12 @@
 
 #include <algorithm>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::design_report_test {
 
 const Sensitivity& of(const DesignReport& report, const std::string& name) {
     return *std::find_if(report.sensitivities.begin(), report.sensitivities.end(),
                          [&](const Sensitivity& one) { return one.name == name; });
 }
-
-} // namespace
 
 TEST(DesignReport, OfTheMemsSwitchHasThePublishedValues) {
     Design design = load_design("mems-switch");
@@ -77,4 +73,4 @@ TEST(DesignReport, EachTableHasAFile) {
                                                "curve-zeta", "plane-sigma-zeta", "tuning", "devices"}));
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::design_report_test

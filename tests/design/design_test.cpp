@@ -9,11 +9,9 @@
 
 #include <algorithm>
 
-namespace graze::testing {
+namespace graze::testing::design_test {
 
 using ::testing::HasSubstr;
-
-namespace {
 
 /// All errors of a text, with their places.
 std::vector<std::string> mistakes_of(const std::string& text) {
@@ -28,8 +26,6 @@ std::vector<std::string> mistakes_of(const std::string& text) {
     }
     return result;
 }
-
-} // namespace
 
 TEST(Design, IsReadWithTolerancesOfEitherKind) {
     const Design design = oscillator_design();
@@ -140,4 +136,4 @@ TEST(Design, NamesMissingAndConflictingKeys) {
                 HasSubstr("is the control parameter"));
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::design_test

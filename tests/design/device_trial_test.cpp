@@ -5,7 +5,7 @@
 #include "graze/base/input_error.hpp"
 #include "switches.hpp"
 
-namespace graze::testing {
+namespace graze::testing::device_trial_test {
 
 TEST(DeviceTrial, OfTheMemsSwitchAgreesWithItsClass) {
     const auto [design, trip] = with_trip(load_design("mems-switch"));
@@ -35,4 +35,4 @@ TEST(DeviceTrial, ContradictsAWrongClass) {
     EXPECT_THROW(try_device(trip, trip.point.solution.orbit, wrong, design.trip, {2, 200, {}}), InputError);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::device_trial_test

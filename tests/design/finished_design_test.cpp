@@ -8,14 +8,12 @@
 
 #include <filesystem>
 
-namespace graze::testing {
+namespace graze::testing::finished_design_test {
 
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-namespace {
 
 class FinishedDesigns : public ::testing::Test {
 protected:
@@ -28,8 +26,6 @@ protected:
 private:
     TemporaryFolder folder_;
 };
-
-} // namespace
 
 TEST_F(FinishedDesigns, TheDeviceFoundForWhatIsWantedHasItsOwnBranchAndReport) {
     const FinishedDesign found = finished("[wanted]\nvalue = 0.2\n");
@@ -84,4 +80,4 @@ TEST_F(FinishedDesigns, AnInterruptionIsTold) {
     EXPECT_TRUE(found.interrupted);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::finished_design_test

@@ -6,9 +6,7 @@
 
 #include <algorithm>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::report_tables_test {
 
 std::optional<std::size_t> row_of(const Table& facts, const std::string& quantity) {
     for (std::size_t row = 0; row < facts.rows(); ++row)
@@ -16,8 +14,6 @@ std::optional<std::size_t> row_of(const Table& facts, const std::string& quantit
             return row;
     return std::nullopt;
 }
-
-} // namespace
 
 TEST(ReportTables, FactsAreThoseOfTheReport) {
     const auto [design, trip] = with_trip(oscillator_design("[wanted]\nvalue = 0.2\n"));
@@ -51,4 +47,4 @@ TEST(ReportTables, CurvesAndPlanesHaveARowForEachDevice) {
     }
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::report_tables_test

@@ -10,9 +10,7 @@
 
 #include <utility>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::reset_steps_test {
 
 struct Units {
     double length = 1, time = 1, mass = 1;
@@ -111,8 +109,6 @@ range = [0, {:.17g}]
 
 constexpr Units micro{.length = 1e-6, .time = 1e-5, .mass = 1e-9};
 
-} // namespace
-
 TEST(ResetSteps, AMassHeldByASteadyForceIsReleasedWhenTheSpringIsStronger) {
     expect_latch({}, false);
     expect_latch(micro, false);
@@ -122,8 +118,6 @@ TEST(ResetSteps, AMassHeldWhileItIsShakenIsReleasedAtTheWorstPhase) {
     expect_latch({}, true);
     expect_latch(micro, true);
 }
-
-namespace {
 
 /// Number of contacts of the motion from the orbit at the trip point, long after the control parameter has been brought
 /// to a value.
@@ -180,8 +174,6 @@ std::pair<std::size_t, std::size_t> contacts_beside(const TripPoint& trip, doubl
     return {there, late_contacts(trip, way)};
 }
 
-} // namespace
-
 TEST(ResetStepsSlow, AMotionThatDoesNotSettleIsTakenBackUntilItSettles) {
     const TripPoint trip = trip_of(parse_design(oscillator(0.05, 2.7, 0.8), "d.toml"));
     EXPECT_NEAR(trip.value(), oscillator_value(0.2, 0.05, 2.7), 1e-9);
@@ -211,4 +203,4 @@ TEST(ResetStepsSlow, AnOrbitThatChangesBeyondTheTripValueIsNotAReset) {
     EXPECT_GT(contacts_beside(trip, options.overshoot, reset).first, 0U);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::reset_steps_test

@@ -4,7 +4,7 @@
 
 #include "switches.hpp"
 
-namespace graze::testing {
+namespace graze::testing::reset_test {
 
 TEST(Reset, OfTheTestbedIsTheFoldOfItsPeriod3Orbit) {
     const TripPoint trip = trip_of(parse_design(R"(name = "bed"
@@ -34,4 +34,4 @@ range = [0.0005, 0.002]
     EXPECT_FALSE(remains.reason.empty());
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::reset_test

@@ -12,9 +12,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::simulated_devices_test {
 
 /// The MEMS switch, its trip point, and the tolerances of its design.
 struct Switches {
@@ -40,8 +38,6 @@ struct Switches {
         return simulated.trips(device, {0, 0, 0}, 2 * std::numbers::pi / device[omega.place()], value);
     }
 };
-
-} // namespace
 
 TEST(SimulatedDevices, TripAboveTheirValueAndNotBelow) {
     const Switches switches;
@@ -95,4 +91,4 @@ TEST(SimulatedDevicesSlow, HaveTheYieldOfExactGrazings) {
     RecordProperty("brute_force", std::to_string(brute.value));
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::simulated_devices_test

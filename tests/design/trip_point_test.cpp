@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace graze::testing {
+namespace graze::testing::trip_point_test {
 
 using ::testing::HasSubstr;
 
@@ -78,4 +78,4 @@ TEST(TripPoint, IsRefusedIfTheBranchEndsBefore) {
                 HasSubstr("without a touch of 'stop'; points before: BD1 at 0.1"));
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::trip_point_test

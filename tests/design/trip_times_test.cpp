@@ -7,7 +7,7 @@
 
 #include <gmock/gmock.h>
 
-namespace graze::testing {
+namespace graze::testing::trip_times_test {
 
 TEST(TripTimes, OfTheMemsSwitchAreThePublishedOnes) {
     Design design = load_design("mems-switch");
@@ -58,4 +58,4 @@ TEST(TripTimes, RefuseOvershootsFarBeyondTheTripValue) {
                 ::testing::StartsWith("d.toml:7:14: the overshoot 5e-06 is 1.25e+03 times the trip"));
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::trip_times_test

@@ -5,7 +5,7 @@
 #include "graze/base/input_error.hpp"
 #include "switches.hpp"
 
-namespace graze::testing {
+namespace graze::testing::value_map_test {
 
 TEST(ValueMap, OfAnOscillatorEqualsTheClosedForm) {
     const auto [design, trip] = with_trip(oscillator_design());
@@ -90,4 +90,4 @@ TEST(Tuning, IsTheInverseOfTheValueCurve) {
     EXPECT_THROW(tuning_curve(trip, idle, settings), InputError);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::value_map_test

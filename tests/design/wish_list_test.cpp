@@ -10,8 +10,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace graze {
-namespace {
+namespace graze::wish_list_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double gravity = 9.81;
@@ -388,5 +387,4 @@ TEST(WishList, RefusesInvalidInput) {
     EXPECT_THROW(design_for(one.wishes({}), options), InputError);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::wish_list_test

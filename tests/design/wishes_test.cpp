@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace graze::testing {
+namespace graze::testing::wishes_test {
 
 TEST(Wishes, AreMetByTheNearestDevice) {
     const Design design = oscillator_design("[wanted]\nvalue = 0.2\n");
@@ -190,4 +190,4 @@ TEST(WishesSlow, ForAValueAClassAndATimeAreMetTogetherOrNameWhatIsMissing) {
     EXPECT_TRUE(closest.found.wants[0].met && closest.found.wants[1].met && !closest.found.wants[2].met);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::wishes_test

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace graze {
-namespace {
+namespace graze::yield_score_test {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -53,5 +52,4 @@ TEST(YieldScore, OfAShareIsTheNormalQuantile) {
         EXPECT_NEAR(share_below(score_of_share(share)), share, 1e-13);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::yield_score_test

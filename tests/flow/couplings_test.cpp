@@ -10,8 +10,7 @@
 #include <limits>
 #include <string>
 
-namespace graze {
-namespace {
+namespace graze::couplings_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity(), roundoff = 1e-14;
 
@@ -141,5 +140,4 @@ TEST(Couplings, MisuseThrows) {
     EXPECT_THROW(couplings.spread(0.1, sizes, 1), InputError);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::couplings_test

@@ -4,8 +4,7 @@
 
 #include <limits>
 
-namespace graze {
-namespace {
+namespace graze::cyclic_test {
 
 TEST(Cyclic, ValuesAreReducedToTheirPeriod) {
     EXPECT_EQ(within_period(7.5, 2), 1.5);
@@ -22,5 +21,4 @@ TEST(Cyclic, DifferencesAreReducedByWholePeriods) {
     EXPECT_EQ(without_turns(7.5, 0), 7.5);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::cyclic_test

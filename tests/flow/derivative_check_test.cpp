@@ -9,8 +9,7 @@
 
 #include <limits>
 
-namespace graze {
-namespace {
+namespace graze::derivative_check_test {
 
 using ::testing::Contains;
 using ::testing::Field;
@@ -62,5 +61,4 @@ TEST(DerivativeCheck, RefusesWhatDoesNotFit) {
     EXPECT_THROW(check_derivatives(system, unknown, parameters), InputError);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::derivative_check_test

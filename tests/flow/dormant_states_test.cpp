@@ -8,8 +8,7 @@
 
 #include <cmath>
 
-namespace graze {
-namespace {
+namespace graze::dormant_states_test {
 
 /// A chain of first-order lags, the first driven by 1: state n is the probability that n events of a Poisson process
 /// have happened.
@@ -83,5 +82,4 @@ modes.one = { rates = { s = 1, y = "s*exp(-s^2) + 0*y" } }
     EXPECT_NEAR(run.state[1], -0.5, 1e-11); // - (exp(0) - exp(-400)) / 2
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::dormant_states_test

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace kept_sign_test {
 
 using namespace graze;
 
@@ -105,4 +105,4 @@ TEST(ClearSign, IsUncertainForNaNAndEmptyIntervals) {
     EXPECT_EQ(roots::clear_sign<true>(std::vector<double>{1}, 1).sign, 0);
 }
 
-} // namespace
+} // namespace kept_sign_test

@@ -10,8 +10,7 @@
 #include <limits>
 #include <string>
 
-namespace graze {
-namespace {
+namespace graze::mode_flow_test {
 
 /// x'' = -k x, whose flow and derivatives are known, and a barrier that the flow ignores.
 Model spring() {
@@ -143,5 +142,4 @@ TEST(ModeFlow, FollowsFastDirectionsInPartsUpToALimit) {
     EXPECT_EQ(flow.run(0, state, 1.0, derivatives), ModeFlow::Ending::too_long);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::mode_flow_test

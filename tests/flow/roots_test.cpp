@@ -9,8 +9,7 @@
 #include <limits>
 #include <random>
 
-namespace graze {
-namespace {
+namespace graze::roots_test {
 
 // Reference values are computed in extended precision: 64 bits or more, so that its own errors are below the bounds
 // tested.
@@ -654,5 +653,4 @@ TEST(RootFinder, HandlesIllConditionedPolynomials) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::roots_test

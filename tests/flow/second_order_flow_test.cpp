@@ -16,8 +16,7 @@
 #include <string>
 #include <thread>
 
-namespace graze {
-namespace {
+namespace graze::second_order_flow_test {
 
 using Numbers = std::vector<double>;
 
@@ -378,7 +377,7 @@ private:
     Flown fly(const Numbers& vector, double within) const {
         SecondOrderFlow flow(system_, within);
         flow.set_parameters(parameters_);
-        return graze::fly(flow, mode_, setting_.start, setting_.duration, vector);
+        return second_order_flow_test::fly(flow, mode_, setting_.start, setting_.duration, vector);
     }
     Numbers contracted(const Numbers& one, const Numbers& other, double within) const {
         return product(fly(one, within).second, other);
@@ -455,5 +454,4 @@ TEST(SecondOrderFlow, ReportsHowItEnds) {
     EXPECT_EQ(ending_of(1, 0.5, 1e308), ModeFlow::Ending::undefined);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::second_order_flow_test

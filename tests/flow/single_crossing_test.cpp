@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace single_crossing_test {
 
 using namespace graze;
 
@@ -71,4 +71,4 @@ TEST(SingleCrossing, IsUncertainForOtherPolynomials) {
     EXPECT_TRUE(is_open({1, 1}, std::numeric_limits<double>::infinity()));
 }
 
-} // namespace
+} // namespace single_crossing_test

@@ -6,8 +6,7 @@
 #include <limits>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::step_size_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -148,5 +147,4 @@ TEST(StepSize, GrowingTermsShortenTheStep) {
     EXPECT_LT(h, 0.3);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::step_size_test

@@ -13,8 +13,7 @@
 #include <limits>
 #include <random>
 
-namespace graze {
-namespace {
+namespace graze::system_test {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
@@ -317,5 +316,4 @@ TEST_P(Systems, GradientsOfSingleEventsAreThoseOfAllEvents) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::system_test

@@ -12,8 +12,7 @@
 #include <numbers>
 #include <string>
 
-namespace graze {
-namespace {
+namespace graze::tangent_steps_test {
 
 using Number = long double;
 using Matrix = std::vector<std::vector<Number>>;
@@ -256,5 +255,4 @@ TEST(TangentSteps, AgreeWithTheVariationalSystemOfAMeanField) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::tangent_steps_test

@@ -8,8 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace graze {
-namespace {
+namespace graze::variational_system_test {
 
 using Numbers = std::vector<double>;
 
@@ -97,5 +96,4 @@ TEST(VariationalSystem, NewSymbolsDoNotCollideWithNamesOfTheModel) {
     EXPECT_THROW(system.function_of(std::vector{Graph::create()->symbol("along_3")}), InputError);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::variational_system_test

@@ -12,8 +12,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::cycle_map_test {
 
 using namespace graze::testing;
 
@@ -172,5 +171,4 @@ TEST(CycleMap, ArgumentsThatDoNotFitAreRefused) {
     EXPECT_THROW(CycleMap{}.projections(10'000'001), InputError);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::cycle_map_test

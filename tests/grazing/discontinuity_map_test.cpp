@@ -17,8 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::discontinuity_map_test {
 
 using namespace graze::testing;
 
@@ -443,5 +442,4 @@ TEST(DiscontinuityMap, NumbersThatDoNotFitAreRefused) {
     EXPECT_THROW(discontinuity_map(System(model), touch), InputError);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::discontinuity_map_test

@@ -13,8 +13,7 @@
 #include <iostream>
 #include <map>
 
-namespace graze {
-namespace {
+namespace graze::verdict_test {
 
 using testing::LinearOscillator;
 
@@ -391,5 +390,4 @@ TEST(Verdict, AttractorsOfTheMapEqualThoseOfSimulation) {
     EXPECT_GE(periodic, 8);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::verdict_test

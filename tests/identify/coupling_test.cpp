@@ -6,11 +6,9 @@
 
 #include <functional>
 
-namespace graze::testing {
+namespace graze::testing::coupling_test {
 
 using namespace magnet;
-
-namespace {
 
 std::vector<StaticLoad> loads_of(Noise& noise, double noise_q, double noise_i) {
     std::vector<StaticLoad> loads;
@@ -25,8 +23,6 @@ std::vector<StaticLoad> loads_of(Noise& noise, double noise_q, double noise_i) {
 CouplingSettings known() {
     return {.gap = gap, .stiffness = stiffness};
 }
-
-} // namespace
 
 TEST(Coupling, IsExactForExactEquilibria) {
     Noise noise(1);
@@ -123,4 +119,4 @@ TEST(Coupling, RefusesLoadsThatDoNotDetermineBothConstants) {
     EXPECT_THROW(coupling(std::vector<StaticLoad>(5, {1e-4, std::nan("")}), known()), InputError);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::coupling_test

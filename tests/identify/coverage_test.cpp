@@ -11,9 +11,7 @@
 
 /// Coverage of the program's 95 % intervals over grids of noise, steps, lengths and damping, from whole records: 90 to
 /// 99 % of all cases, and nowhere far less.
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::coverage_test {
 
 constexpr std::size_t seeds = 30;
 
@@ -94,8 +92,6 @@ private:
     std::size_t records_;
     std::size_t cases_ = 0, tried_ = 0, inside_ = 0, warned_ = 0, refused_ = 0;
 };
-
-} // namespace
 
 TEST(CoverageSlow, DecrementsCoverTheTruth) {
     constexpr double natural = 96.4;
@@ -190,4 +186,4 @@ TEST(CoverageSlow, ImpedancesCoverTheTruth) {
                         });
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::coverage_test

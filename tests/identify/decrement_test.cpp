@@ -8,13 +8,11 @@
 #include <numbers>
 #include <string>
 
-namespace graze::testing {
+namespace graze::testing::decrement_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-namespace {
 
 // Constants of the testbed: Appendix C of B. E. Wilcox's dissertation.
 constexpr double frequency = 95.94, damping = 0.01626;
@@ -40,8 +38,6 @@ std::vector<DecayPeaks> releases_of(Noise& noise, int count, double sigma, doubl
         releases.push_back(peaks_of(noise, sigma, rest));
     return releases;
 }
-
-} // namespace
 
 TEST(Decrement, IsExactForExactPeaks) {
     const double damped = frequency * std::sqrt(1 - damping * damping), period = 2 * std::numbers::pi / damped;
@@ -218,4 +214,4 @@ TEST(Decrement, RefusesInvalidPeaks) {
     EXPECT_THROW(decay_peaks(flat, 1, 10), InputError);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::decrement_test

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-namespace graze::testing {
+namespace graze::testing::estimate_test {
 
 TEST(Estimate, QuantilesAreThoseOfStudentsDistribution) {
     // Closed forms: the tangent for one degree of freedom, p sqrt(2/(1 - p^2)) for two.
@@ -59,4 +59,4 @@ TEST(Estimate, IntervalOfSetsThatDifferByMoreCoversTheirMean) {
     expect_coverage(covered, "mean of sets");
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::estimate_test

@@ -8,9 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::fit_errors_test {
 
 RecordedMotion wall_motion(std::size_t readings = 120) {
     RecordedMotion motion(wall_model(), {"x", "v"}, 0.013, 6.0 / static_cast<double>(readings), readings);
@@ -29,8 +27,6 @@ void expect_found_with_slow_impacts(std::uint64_t seed, double factor) {
     // With 4 numbers in 18 fits, one exceeds four errors by chance in one of 200 such tests.
     motion.expect_within_errors(fit);
 }
-
-} // namespace
 
 /// 95 % intervals of every parameter cover the truth in 90 to 99 % of 200 experiments.
 TEST(FitErrorsSlow, IntervalsCoverTheTruth) {
@@ -179,4 +175,4 @@ TEST(FitErrorsSlow, GuessesDoNotMatter) {
             expect_found_with_slow_impacts(seed, factor);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::fit_errors_test

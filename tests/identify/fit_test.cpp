@@ -8,9 +8,7 @@
 
 #include <array>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::fit_test {
 
 /// Motions are accurate to some 1e-13; numbers fitted to them must have nine correct digits.
 constexpr double nine_digits = 1e-9;
@@ -27,8 +25,6 @@ void read_squares(RecordedMotion& motion) {
         value *= value;
     motion.task.records[0].start = motion.first;
 }
-
-} // namespace
 
 TEST(Fit, FindsTheParametersOfAnImpactOscillator) {
     RecordedMotion motion(load_model("impact-oscillator"), {"x", "v"}, 0, 0.05, 600);
@@ -286,4 +282,4 @@ TEST(Fit, SignsAreThoseOfGuesses) {
     motion.expect_within_errors(fit);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::fit_test

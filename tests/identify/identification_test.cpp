@@ -10,12 +10,10 @@
 #include <numbers>
 #include <utility>
 
-namespace graze::testing {
+namespace graze::testing::identification_test {
 
 using namespace magnet;
 using ::testing::HasSubstr;
-
-namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
@@ -87,8 +85,6 @@ NamedRecord coil_record(double resistance, double inductance, double voltage, do
                   {[=](double t) { return voltage * std::sin(w * t); },
                    [=](double t) { return sign * voltage / size * std::sin(w * t - late); }});
 }
-
-} // namespace
 
 TEST(Identification, DecrementHasUnitsAndCurves) {
     const Identification found = identify_decrement(each({release(0.1), release(0.2)}), {});
@@ -323,4 +319,4 @@ TEST(Identification, RefusesRecordsWithoutUsableNumbers) {
     EXPECT_THAT(message_of([&] { identify_decrement(each({release(0.1)}), other); }), HasSubstr("channel: "));
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::identification_test

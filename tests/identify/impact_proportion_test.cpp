@@ -5,9 +5,7 @@
 
 #include <algorithm>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::impact_proportion_test {
 
 /// Impacts of a bouncing ball; each speed is the one before times the restitution.
 std::vector<RecordedImpact> bounces(Noise& noise, double offset, double by_speed, double deviation) {
@@ -29,8 +27,6 @@ ImpactProportion tested(const std::vector<RecordedImpact>& impacts) {
         speeds.push_back({one.before, one.after, one.before_error, one.after_error});
     return test_proportion(impacts, restitution(speeds).coefficient.value);
 }
-
-} // namespace
 
 /// The false-positive rate is at most the nominal level, and at least a fifth of it (the p values of several terms are
 /// combined by Bonferroni's bound).
@@ -93,4 +89,4 @@ TEST(ImpactProportion, CountsDoubtfulImpacts) {
     EXPECT_EQ(doubtful_impacts({}), 0U);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::impact_proportion_test

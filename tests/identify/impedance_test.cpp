@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::impedance_test {
 
 constexpr double resistance = 1.39, leakage = 10.55e-3, beta1 = 1.902e-5, beta2 = 1.631e-3, gap = 4.79e-3, q = 1.27e-3;
 constexpr double omega = 25.1, size = 1.66;
@@ -30,8 +28,6 @@ Recorded recorded(Noise& noise, double noise_v, double noise_i) {
     }
     return record;
 }
-
-} // namespace
 
 TEST(Impedance, IsExactForExactSines) {
     Noise noise(1);
@@ -110,4 +106,4 @@ TEST(Impedance, RefusesChannelsWithoutASignal) {
     EXPECT_THROW(impedance({}, {}, {}), InputError);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::impedance_test

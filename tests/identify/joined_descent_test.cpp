@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace graze::testing {
+namespace graze::testing::joined_descent_test {
 
 /// A ball that comes to rest: each impact that passes a reading, and is too slow to be told from noise, makes a step of
 /// the sum of squares. Without JoinedDescent all three fits ended as unfinished.
@@ -27,4 +27,4 @@ TEST(JoinedDescent, ConvergesAtTheEdgeOfAStepOfTheCost) {
     }
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::joined_descent_test

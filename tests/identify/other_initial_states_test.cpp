@@ -7,9 +7,7 @@
 
 #include <cmath>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::other_initial_states_test {
 
 /// Time of the first impact: x = -2 exp(-ct/2) (cos wt + c/(2w) sin wt) rises to 0.5, by bisection.
 double first_contact() {
@@ -35,8 +33,6 @@ RecordedMotion before_contact(double lead) {
     return motion;
 }
 
-} // namespace
-
 /// Only the first few readings, or a single one, precede the impact, and velocity is not read: starting with the
 /// velocity after the impact fits all other readings.
 TEST(OtherInitialStates, ARecordMayBeginJustBeforeAContact) {
@@ -50,4 +46,4 @@ TEST(OtherInitialStates, ARecordMayBeginJustBeforeAContact) {
     }
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::other_initial_states_test

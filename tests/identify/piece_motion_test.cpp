@@ -8,9 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::piece_motion_test {
 
 struct Case {
     Model model;
@@ -86,8 +84,6 @@ void expect_differences(const Case& one) {
     EXPECT_GT(beyond, 0U);
 }
 
-} // namespace
-
 TEST(PieceMotion, DerivativesEqualFiniteDifferences) {
     expect_differences({load_model("impact-oscillator"), {"zeta", "omega", "sigma", "e", "amplitude"}, 0, 9, 87});
     expect_differences({load_model("bouncing-ball"), {"g", "e", "a", "f"}, 0, 0.5, 113});
@@ -125,4 +121,4 @@ next = "swing"
     expect_differences({model, {"w", "wall"}, 0, 9, 87});
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::piece_motion_test

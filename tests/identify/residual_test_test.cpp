@@ -12,9 +12,7 @@
 #include <gmock/gmock.h>
 #include <numbers>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::residual_test_test {
 
 std::vector<double> series(std::size_t count, const std::function<double(double)>& value) {
     std::vector<double> result;
@@ -22,8 +20,6 @@ std::vector<double> series(std::size_t count, const std::function<double(double)
         result.push_back(value(static_cast<double>(i)));
     return result;
 }
-
-} // namespace
 
 // An F variable with one and f degrees of freedom is the square of Student's t.
 TEST(ResidualTest, FisherTailOfOneDegreeIsThatOfStudent) {
@@ -175,4 +171,4 @@ TEST(DampedOscillationSlow, IntervalsCoverTheTruthAtAnyNoise) {
         }
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::residual_test_test

@@ -3,7 +3,7 @@
 #include "graze/base/input_error.hpp"
 #include "identify/noise.hpp"
 
-namespace graze::testing {
+namespace graze::testing::restitution_test {
 
 TEST(Restitution, IsExactForExactImpacts) {
     const std::vector<ImpactSpeeds> impacts{{0.1, -0.0866}, {0.05, -0.0433}, {-0.2, 0.1732}};
@@ -56,4 +56,4 @@ TEST(Restitution, RefusesVelocitiesThatAreNotThoseOfImpacts) {
     EXPECT_THROW(restitution(std::vector<ImpactSpeeds>{{1, std::nan("")}, {1, -1}}), InputError);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::restitution_test

@@ -15,8 +15,7 @@
 #include <thread>
 #include <unistd.h>
 
-namespace graze {
-namespace {
+namespace graze::bench_service_test {
 
 /// A bench service in a thread of its own, with clients of its connections.
 class Served {
@@ -77,8 +76,6 @@ private:
     std::atomic<bool> stop_{false};
     std::thread thread_;
 };
-
-} // namespace
 
 TEST(BenchService, ServesTheGeneratorOnALineAndSamplesOnAPort) {
     Served served;
@@ -154,4 +151,4 @@ TEST(BenchService, ReplacesOnlyStaleLinks) {
     EXPECT_FALSE(std::filesystem::is_symlink(file));
 }
 
-} // namespace graze
+} // namespace graze::bench_service_test

@@ -6,8 +6,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace graze {
-namespace {
+namespace graze::function_generator_test {
 
 FunctionGenerator remote(const GeneratorSettings& settings = {}) {
     FunctionGenerator generator(settings);
@@ -18,8 +17,6 @@ FunctionGenerator remote(const GeneratorSettings& settings = {}) {
 std::string error(FunctionGenerator& generator) {
     return generator.execute("SYST:ERR?");
 }
-
-} // namespace
 
 TEST(FunctionGenerator, ExecutesTheCommandsOfAnExperiment) {
     FunctionGenerator generator;
@@ -162,4 +159,4 @@ TEST(FunctionGenerator, StaysWithinItsLimitsForAnyCommand) {
     EXPECT_EQ(error(generator), "+521,\"Input buffer overflow\"");
 }
 
-} // namespace graze
+} // namespace graze::function_generator_test

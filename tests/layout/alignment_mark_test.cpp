@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace graze::testing {
-namespace {
+namespace graze::testing::alignment_mark_test {
 
 TEST(AlignmentMark, IsACrossBetweenSquares) {
     for (const std::int64_t size : {20, 21, 999, 300'000}) {
@@ -27,5 +26,4 @@ TEST(AlignmentMark, IsACrossBetweenSquares) {
     EXPECT_THROW(alignment_mark("MARK", 19), InputError);
 }
 
-} // namespace
-} // namespace graze::testing
+} // namespace graze::testing::alignment_mark_test

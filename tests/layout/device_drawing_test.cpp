@@ -8,8 +8,7 @@
 #include <cmath>
 #include <random>
 
-namespace graze::testing {
-namespace {
+namespace graze::testing::device_drawing_test {
 
 using ::testing::HasSubstr;
 
@@ -184,5 +183,4 @@ TEST(DeviceDrawing, OfRandomDimensionsIsValidOrRefused) {
     EXPECT_GT(drawn, 1000U);
 }
 
-} // namespace
-} // namespace graze::testing
+} // namespace graze::testing::device_drawing_test

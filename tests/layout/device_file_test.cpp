@@ -8,8 +8,7 @@
 
 #include <cstdlib>
 
-namespace graze::testing {
-namespace {
+namespace graze::testing::device_file_test {
 
 using ::testing::HasSubstr;
 
@@ -120,5 +119,4 @@ TEST(DeviceFile, IsAlsoReadAsADesign) {
     EXPECT_EQ(load_design("mems-switch-device").name, file.name);
 }
 
-} // namespace
-} // namespace graze::testing
+} // namespace graze::testing::device_file_test

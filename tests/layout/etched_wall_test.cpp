@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-namespace graze {
-namespace {
+namespace graze::etched_wall_test {
 
 TEST(EtchedWall, NarrowsLinesAndWidensTrenches) {
     const EtchedWall wall{.bias = 0.3, .slope = 0.002};
@@ -29,5 +28,4 @@ TEST(EtchedWall, HasTheMeanCubeOfALinearWidth) {
     EXPECT_NEAR(width.mean_cube(), simpson, 1e-13 * simpson); // round-off of a few operations
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::etched_wall_test

@@ -9,8 +9,7 @@
 #include <cmath>
 #include <string>
 
-namespace graze {
-namespace {
+namespace graze::fabrication_rules_test {
 
 using ::testing::HasSubstr;
 
@@ -157,5 +156,4 @@ TEST(FabricationRules, DetectAMassThatExtendsBeyondItsChamber) {
     EXPECT_THAT(overlap.part, HasSubstr("the mass, which reaches out of it"));
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::fabrication_rules_test

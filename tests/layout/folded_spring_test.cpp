@@ -10,8 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::folded_spring_test {
 
 /// Finite elements of both halves of a flexure with vertical walls, without the links' mass, divided by two; joints are
 /// 1e4 times stiffer than trusses.
@@ -145,5 +144,4 @@ TEST(FoldedSpring, RefusesInvalidSprings) {
     EXPECT_THROW(properties_of(spring_of(1, 40e-6)), InputError);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::folded_spring_test

@@ -4,8 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace graze::testing {
-namespace {
+namespace graze::testing::free_way_test {
 
 using ::testing::HasSubstr;
 
@@ -95,5 +94,4 @@ TEST(FreeWay, IsWhereTheMovedMassOverlapsTheFrame) {
         EXPECT_NEAR(one.value, 20 + 0.6, rounding);
 }
 
-} // namespace
-} // namespace graze::testing
+} // namespace graze::testing::free_way_test

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace graze::testing {
-namespace {
+namespace graze::testing::gds_stream_test {
 
 /// Decodes a GDSII number by its definition.
 double value_of(std::uint64_t bits) {
@@ -128,5 +127,4 @@ TEST(GdsStream, WrongUsesAreRefused) {
     EXPECT_THROW(gds_stream(twice), InputError);
 }
 
-} // namespace
-} // namespace graze::testing
+} // namespace graze::testing::gds_stream_test

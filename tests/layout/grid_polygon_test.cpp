@@ -2,8 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace graze::testing {
-namespace {
+namespace graze::testing::grid_polygon_test {
 
 using ::testing::HasSubstr;
 
@@ -51,5 +50,4 @@ TEST(GridPolygon, FaultsAreFound) {
     EXPECT_FALSE(far) << far->text;
 }
 
-} // namespace
-} // namespace graze::testing
+} // namespace graze::testing::grid_polygon_test

@@ -6,8 +6,7 @@
 
 #include <set>
 
-namespace graze::testing {
-namespace {
+namespace graze::testing::layout_cell_test {
 
 TEST(LayoutCell, IsMirroredThenRotatedThenMoved) {
     LayoutCell arrow{.name = "ARROW"};
@@ -44,5 +43,4 @@ TEST(LayoutCell, LayersHaveDescriptionsAndNamesHaveOnlyLettersAndDigits) {
     EXPECT_EQ(cell_name(std::string(100, 'a')).size(), 28U);
 }
 
-} // namespace
-} // namespace graze::testing
+} // namespace graze::testing::layout_cell_test

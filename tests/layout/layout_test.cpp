@@ -9,8 +9,7 @@
 #include <map>
 #include <set>
 
-namespace graze::testing {
-namespace {
+namespace graze::testing::layout_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -171,5 +170,4 @@ TEST(Layout, OfTenThousandVariantsAreDrawnAndWritten) {
     EXPECT_EQ(gds_stream(draw_device_layout(file).library), gds_stream(draw_device_layout(file).library));
 }
 
-} // namespace
-} // namespace graze::testing
+} // namespace graze::testing::layout_test

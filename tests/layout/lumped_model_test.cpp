@@ -11,8 +11,7 @@
 #include <numbers>
 #include <string>
 
-namespace graze {
-namespace {
+namespace graze::lumped_model_test {
 
 const char* const shipped = "mems-switch-device";
 
@@ -226,5 +225,4 @@ TEST(LumpedModel, GivesParametersInTheModelsUnits) {
     EXPECT_THROW(parameters_of(lumped, load_model("mems-switch")), InputError);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::lumped_model_test

@@ -5,8 +5,7 @@
 #include <set>
 #include <string>
 
-namespace graze::testing {
-namespace {
+namespace graze::testing::mask_letters_test {
 
 const std::string drawn = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.,-_+=:/()";
 
@@ -50,5 +49,4 @@ TEST(MaskLetters, HaveTheStatedWidth) {
     EXPECT_FALSE(can_be_drawn("a;b"));
 }
 
-} // namespace
-} // namespace graze::testing
+} // namespace graze::testing::mask_letters_test

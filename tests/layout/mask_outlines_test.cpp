@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <random>
 
-namespace graze {
-namespace {
+namespace graze::mask_outlines_test {
 
 std::int64_t least(const std::vector<FacingEdges>& places, bool etched) {
     std::int64_t found = 1'000'000;
@@ -90,5 +89,4 @@ TEST(BoxSets, HaveTheAreaOfTheCountedSquares) {
     EXPECT_GT(tried, 200);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::mask_outlines_test

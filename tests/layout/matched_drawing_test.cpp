@@ -12,8 +12,7 @@
 #include <random>
 #include <string>
 
-namespace graze {
-namespace {
+namespace graze::matched_drawing_test {
 
 const char* const shipped = "mems-switch-device";
 
@@ -136,5 +135,4 @@ TEST(MatchedDrawing, KeepsGivenNumbers) {
     EXPECT_THROW(match_drawing(file, load_model("mems-switch")), InputError);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::matched_drawing_test

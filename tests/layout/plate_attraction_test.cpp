@@ -11,8 +11,7 @@
 #include <numbers>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::plate_attraction_test {
 
 /// A strip of surface charge.
 struct Strip {
@@ -133,5 +132,4 @@ TEST(PlateAttraction, RefusesInvalidPlates) {
     EXPECT_THROW(capacitance_by_length(1, nan, 0), InputError);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::plate_attraction_test

@@ -2,8 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace graze {
-namespace {
+namespace graze::process_recipe_test {
 
 using ::testing::HasSubstr;
 
@@ -23,5 +22,4 @@ TEST(ProcessRecipe, FollowsTheDesign) {
     EXPECT_THAT(text, HasSubstr("recedes by 0.5 um"));
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::process_recipe_test

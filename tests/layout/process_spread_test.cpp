@@ -8,8 +8,7 @@
 #include <cmath>
 #include <string>
 
-namespace graze {
-namespace {
+namespace graze::process_spread_test {
 
 using ::testing::HasSubstr;
 
@@ -88,5 +87,4 @@ TEST(ProcessSpread, ErrorsHavePlaceAndRemedy) {
         EXPECT_THAT(testing::message_of([&, &text = text] { with_spread(text); }), HasSubstr(said));
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::process_spread_test

@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-namespace graze {
-namespace {
+namespace graze::process_steps_test {
 
 class ProcessSteps : public ::testing::Test {
 protected:
@@ -79,5 +78,4 @@ TEST_F(ProcessSteps, CoatNothingBelowAnOverhang) {
         }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::process_steps_test

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace graze::testing {
+namespace graze::testing::rule_markers_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -27,4 +27,4 @@ TEST(RuleMarkers, HaveTheBrokenRulesWithTheirPlaces) {
     EXPECT_THAT(rule_markers({}, "DEVICE", "graze 1"), HasSubstr(" <items>\n </items>"));
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::rule_markers_test

@@ -9,8 +9,7 @@
 #include <numbers>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::squeeze_film_test {
 
 const Gas air{.pressure = 101325, .viscosity = 1.82e-5, .mean_free_path = 67e-9};
 /// A gas so dense that it does not slip.
@@ -119,5 +118,4 @@ TEST(SqueezeFilm, RefusesInvalidFilms) {
     EXPECT_THROW(sliding_film_damping(-1, 1, air), InputError);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::squeeze_film_test

@@ -4,8 +4,7 @@
 
 #include <numbers>
 
-namespace graze::testing {
-namespace {
+namespace graze::testing::turned_box_test {
 
 constexpr double degree = std::numbers::pi / 180;
 
@@ -23,5 +22,4 @@ TEST(TurnedBox, MeetsBoxesThatNoSideSeparates) {
     EXPECT_TRUE(TurnedBox({-10, -10, 10, 10}, {}, 30 * degree).meets(square));
 }
 
-} // namespace
-} // namespace graze::testing
+} // namespace graze::testing::turned_box_test

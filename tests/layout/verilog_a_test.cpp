@@ -16,8 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::verilog_a_test {
 
 using testing::VerilogModule;
 
@@ -150,5 +149,4 @@ TEST(VerilogA, UsesTheParametersAndUnitsOfModels) {
     EXPECT_EQ(VerilogModule(verilog_a_text(load_model(shipped), "2 mm", "graze")).name, "_2_mm_va");
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::verilog_a_test

@@ -10,8 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace graze::testing {
-namespace {
+namespace graze::testing::wafer_yield_test {
 
 /// The shipped device on its wafers, with some variation of its process.
 struct Wafers {
@@ -167,5 +166,4 @@ TEST(WaferYield, CountsDevicesThatTheEtchRemoves) {
     EXPECT_THROW(wafers.yield(), InputError);
 }
 
-} // namespace
-} // namespace graze::testing
+} // namespace graze::testing::wafer_yield_test

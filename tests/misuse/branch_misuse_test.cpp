@@ -6,8 +6,7 @@
 // Omitted members of a struct have the defaults of its header.
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 
-namespace graze {
-namespace {
+namespace graze::branch_misuse_test {
 
 using Values = std::vector<double>;
 
@@ -293,5 +292,4 @@ TEST(WrongBranchUse, IsRefused) {
     expect_refusals({problems, continuations, settings, branches});
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::branch_misuse_test

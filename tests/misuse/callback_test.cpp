@@ -22,8 +22,7 @@
 #include <functional>
 #include <thread>
 
-namespace graze {
-namespace {
+namespace graze::callback_test {
 
 using namespace graze::testing;
 
@@ -119,8 +118,6 @@ cycles = 10
 )",
                        "s.toml");
 }
-
-} // namespace
 
 TEST(Callbacks, AnExceptionEndsAMotion) {
     expect_promises([](Watch& watch) {
@@ -291,4 +288,4 @@ TEST(Callbacks, AnExceptionEndsAnAcquisition) {
     });
 }
 
-} // namespace graze
+} // namespace graze::callback_test

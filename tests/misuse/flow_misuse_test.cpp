@@ -10,8 +10,7 @@
 #include "graze/flow/tangent_steps.hpp"
 #include "graze/symbolic/transform.hpp"
 
-namespace graze {
-namespace {
+namespace graze::flow_misuse_test {
 
 using namespace graze::testing;
 
@@ -430,5 +429,4 @@ TEST(WrongFlowUse, IsRefused) {
     expect_refusals({tapes, wrong_jets, tangents, steps, systems, mode_flows, second_order_flows});
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::flow_misuse_test

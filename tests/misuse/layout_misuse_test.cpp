@@ -12,8 +12,7 @@
 
 #include <limits>
 
-namespace graze {
-namespace {
+namespace graze::layout_misuse_test {
 
 using namespace graze::testing;
 
@@ -153,5 +152,4 @@ TEST(WrongLayoutUse, TablesOutliveTheirSource) {
     EXPECT_EQ(copy.text(1, 1), "b");
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::layout_misuse_test

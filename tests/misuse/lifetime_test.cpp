@@ -18,8 +18,7 @@
 // Omitted members of a struct have the defaults of its header.
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 
-namespace graze {
-namespace {
+namespace graze::lifetime_test {
 
 using namespace graze::testing;
 
@@ -328,5 +327,4 @@ TEST(Lifetime, ObjectsOutliveThoseTheyWereMadeFrom) {
     each_of(right.list(), [](const auto& use) { EXPECT_NO_THROW(use.use()) << use.name; });
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::lifetime_test

@@ -7,8 +7,7 @@
 #include "graze/model/microbeam.hpp"
 #include "graze/model/named_value.hpp"
 
-namespace graze {
-namespace {
+namespace graze::model_misuse_test {
 
 using namespace graze::testing;
 
@@ -262,5 +261,4 @@ TEST(WrongModelUse, IsRefused) {
     expect_refusals({defective_models, moved_models, questions, files, microbeams});
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::model_misuse_test

@@ -9,8 +9,7 @@
 // Omitted members of a struct have the defaults of its header.
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 
-namespace graze {
-namespace {
+namespace graze::orbit_misuse_test {
 
 using namespace graze::testing;
 
@@ -169,5 +168,4 @@ TEST(WrongOrbitUse, IsRefused) {
     expect_refusals({defective_orbits, signatures, wrong_orbit_options, motions});
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::orbit_misuse_test

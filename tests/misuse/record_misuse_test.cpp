@@ -27,8 +27,7 @@
 
 #include <cmath>
 
-namespace graze {
-namespace {
+namespace graze::record_misuse_test {
 
 using namespace graze::testing;
 
@@ -264,5 +263,4 @@ TEST(WrongRecordUse, HugeRepetitionCountsDoNotOverflow) {
     EXPECT_EQ(watch.period(), 0U);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::record_misuse_test

@@ -11,8 +11,7 @@
 #include "graze/study/runner.hpp"
 #include "graze/study/study_catalogue.hpp"
 
-namespace graze {
-namespace {
+namespace graze::study_misuse_test {
 
 using namespace graze::testing;
 
@@ -311,5 +310,4 @@ TEST(WrongStudyUse, IsRefused) {
     expect_refusals({result_files, rows, studies});
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::study_misuse_test

@@ -8,8 +8,7 @@
 // Omitted members of a struct have the defaults of its header.
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 
-namespace graze {
-namespace {
+namespace graze::sweep_misuse_test {
 
 using namespace graze::testing;
 
@@ -189,5 +188,4 @@ TEST(WrongSweepUse, IsRefused) {
     expect_refusals({attractor_options, transient_options, samplings, point_searches, executions});
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::sweep_misuse_test

@@ -9,8 +9,7 @@
 #include "graze/symbolic/parser.hpp"
 #include "graze/symbolic/transform.hpp"
 
-namespace graze {
-namespace {
+namespace graze::symbolic_misuse_test {
 
 using namespace graze::testing;
 
@@ -247,5 +246,4 @@ TEST(WrongSymbolicUse, IsRefused) {
     expect_refusals({operators, graphs, functions, transforms, texts});
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::symbolic_misuse_test

@@ -9,8 +9,7 @@
 // Omitted members of a struct have the defaults of its header.
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 
-namespace graze {
-namespace {
+namespace graze::trajectory_misuse_test {
 
 using namespace graze::testing;
 
@@ -305,5 +304,4 @@ TEST(WrongTrajectoryUse, IsRefused) {
     expect_refusals({wrong_trajectory_options, probes, starts, wrongly_carried, order_of_calls, drivers, observers});
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::trajectory_misuse_test

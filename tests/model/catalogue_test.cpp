@@ -13,8 +13,7 @@
 #include <set>
 #include <sstream>
 
-namespace graze {
-namespace {
+namespace graze::catalogue_test {
 
 std::string message(const std::string& name) {
     return testing::message_of([&] { load_model(name); });
@@ -78,5 +77,4 @@ TEST(Catalogue, LoadsByNameOrPath) {
     EXPECT_NE(message("./nowhere").find("cannot be read"), std::string::npos);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::catalogue_test

@@ -9,8 +9,7 @@
 #include <set>
 #include <sstream>
 
-namespace graze {
-namespace {
+namespace graze::check_test {
 
 const char* const ball = R"toml(
 name = "ball \"on\" table"
@@ -166,5 +165,4 @@ TEST(Check, DrawsOneArrowForAllTransitionsBetweenTwoModes) {
     EXPECT_NE(graph.find("J1: front / impact [x2 > 0]\\nJ1: front / impact [F < 0]"), std::string::npos) << graph;
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::check_test

@@ -11,8 +11,7 @@
 
 #include <cmath>
 
-namespace graze {
-namespace {
+namespace graze::driven_parameter_test {
 
 using testing::evaluate;
 
@@ -84,5 +83,4 @@ TEST(DrivenParameter, CanBeMadeOfEveryShippedModel) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::driven_parameter_test

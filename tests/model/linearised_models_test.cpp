@@ -11,8 +11,7 @@
 #include <iostream>
 #include <string>
 
-namespace graze {
-namespace {
+namespace graze::linearised_models_test {
 
 struct Compared {
     Linearisation linear, plain; ///< with respect to states only
@@ -108,5 +107,4 @@ TEST(LinearisedModels, ChainsHaveNoIntermediates) {
     EXPECT_EQ(of_many.cost(), linear.cost());
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::linearised_models_test

@@ -15,8 +15,7 @@
 #include <regex>
 #include <sstream>
 
-namespace graze {
-namespace {
+namespace graze::microbeam_test {
 
 using testing::evaluate;
 using testing::expressions_of;
@@ -383,5 +382,4 @@ TEST(Microbeam, ShippedFileIsThatOfTheBuilder) {
         EXPECT_NEAR(shipped_numbers[i], built_numbers[i], 32 * epsilon * std::abs(built_numbers[i]));
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::microbeam_test

@@ -13,8 +13,7 @@
 #include <cmath>
 #include <fstream>
 
-namespace graze {
-namespace {
+namespace graze::model_file_test {
 
 /// Uses every feature of the format; states and events are deliberately not in alphabetical order.
 const char* const everything = R"toml(name = "everything"
@@ -623,5 +622,4 @@ TEST(ModelFile, ExamplesOfTheGuideAreValidModels) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::model_file_test

@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::model_mistakes_test {
 
 using ::testing::ElementsAre;
 using ::testing::StartsWith;
@@ -143,5 +142,4 @@ TEST(ModelMistakes, OfNamesEndTheReading) {
                 ElementsAre(StartsWith(":1:1: unknown key 'colour'"), StartsWith(":2:1: unknown key 'size'")));
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::model_mistakes_test

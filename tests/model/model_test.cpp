@@ -10,8 +10,7 @@
 #include <functional>
 #include <limits>
 
-namespace graze {
-namespace {
+namespace graze::model_test {
 
 using testing::message_of;
 
@@ -255,5 +254,4 @@ TEST(Model, ValidatesValuesAndTransitions) {
     EXPECT_NO_THROW(model.validate());
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::model_test

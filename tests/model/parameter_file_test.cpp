@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace graze::testing {
+namespace graze::testing::parameter_file_test {
 
 TEST(ParameterFile, ReadsBackUnchanged) {
     ParameterFile file;
@@ -36,4 +36,4 @@ TEST(ParameterFile, MistakesHaveAPlace) {
         }
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::parameter_file_test

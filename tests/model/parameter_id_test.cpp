@@ -8,8 +8,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace graze {
-namespace {
+namespace graze::parameter_id_test {
 
 // No index converts to a parameter implicitly, not even in braces.
 static_assert(!std::is_convertible_v<std::size_t, ParameterId> && !std::is_convertible_v<int, ParameterId>);
@@ -33,5 +32,4 @@ TEST(ParameterId, IsTheIndexAmongTheIndependentParameters) {
     EXPECT_EQ(ParameterId(), model.independent_parameter("width"));
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::parameter_id_test

@@ -9,8 +9,7 @@
 #include <map>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::shipped_equations_test {
 
 using testing::evaluate;
 using testing::event_function;
@@ -347,5 +346,4 @@ TEST(MemsSwitch, StopForceIsAlwaysRepulsive) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::shipped_equations_test

@@ -9,8 +9,7 @@
 #include <filesystem>
 #include <limits>
 
-namespace graze {
-namespace {
+namespace graze::shipped_models_test {
 
 using testing::evaluate;
 using testing::expressions_of;
@@ -185,5 +184,4 @@ TEST(ShippedModels, AreComplete) {
     EXPECT_EQ(shipped_names(), expected);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::shipped_models_test

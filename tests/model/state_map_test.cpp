@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace graze {
-namespace {
+namespace graze::state_map_test {
 
 class StateMaps : public ::testing::Test {
 protected:
@@ -115,5 +114,4 @@ TEST(StateMapsOfModels, AreValidatedWhetherSharedOrNot) {
     EXPECT_EQ(problem(model), "jumps.back.x uses the unknown name 'y'");
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::state_map_test

@@ -11,8 +11,7 @@
 #include <cmath>
 #include <random>
 
-namespace graze {
-namespace {
+namespace graze::cyclic_matrix_test {
 
 struct Case {
     Eigen::Index n, m;
@@ -176,5 +175,4 @@ TEST(CyclicMatrix, NullVectorsOfASingularMatrixAreFound) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::cyclic_matrix_test

@@ -11,8 +11,7 @@
 #include <tuple>
 #include <utility>
 
-namespace graze {
-namespace {
+namespace graze::family_test {
 
 using namespace graze::testing;
 
@@ -95,5 +94,4 @@ TEST(Family, AStateThatTicksReverseParametrisesAFamily) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::family_test

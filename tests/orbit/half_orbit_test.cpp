@@ -10,8 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::half_orbit_test {
 
 using namespace graze::testing;
 
@@ -90,5 +89,4 @@ TEST(HalfOrbit, ExistsWhereAStateIsTheSignOfTheForce) {
     expect_orbit(plain, false);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::half_orbit_test

@@ -11,8 +11,7 @@
 #include <numbers>
 #include <random>
 
-namespace graze {
-namespace {
+namespace graze::multipliers_test {
 
 using namespace graze::testing;
 
@@ -76,5 +75,4 @@ TEST(Multipliers, RelaxationOscillatorContractsByItsDivergence) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::multipliers_test

@@ -17,8 +17,7 @@
 #include <random>
 #include <string>
 
-namespace graze {
-namespace {
+namespace graze::orbit_equations_test {
 
 using namespace graze::testing;
 
@@ -207,5 +206,4 @@ TEST(Collocation, ErrorFallsWithTheEighthPower) {
     EXPECT_THROW(Collocation(Simulation(System(model)), orbit, {}, 0), InputError);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::orbit_equations_test

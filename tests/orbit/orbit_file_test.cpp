@@ -10,8 +10,7 @@
 
 #include <fmt/format.h>
 
-namespace graze {
-namespace {
+namespace graze::orbit_file_test {
 
 using namespace graze::testing;
 
@@ -76,5 +75,4 @@ TEST(OrbitTable, MistakesAreReportedWithTheirPlace) {
     EXPECT_THROW(read_orbit_table(model, "/no/such/file.csv", "impact"), InputError);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::orbit_file_test

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace graze {
-namespace {
+namespace graze::product_eigenvalues_test {
 
 /// Factors whose product has the given real eigenvalues: random changes of basis between diagonal factors.
 std::vector<Eigen::MatrixXd> factors_with(const std::vector<double>& eigenvalues, std::size_t count) {
@@ -75,5 +74,4 @@ TEST(ProductEigenvalues, IncludeComplexPairsAndZeros) {
     EXPECT_TRUE(product_eigenvalues({}).empty());
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::product_eigenvalues_test

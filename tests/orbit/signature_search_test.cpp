@@ -10,8 +10,7 @@
 #include <cmath>
 #include <string>
 
-namespace graze {
-namespace {
+namespace graze::signature_search_test {
 
 using namespace graze::testing;
 
@@ -98,5 +97,4 @@ TEST(OrbitWithSignature, SymmetricOrbitsAreReturnedAsHalfOrbits) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::signature_search_test

@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace graze {
-namespace {
+namespace graze::signature_test {
 
 std::string rewritten(const char* model_name, const char* text) {
     const Model model = load_model(model_name);
@@ -52,5 +51,4 @@ TEST(Signature, MistakesAreReportedWithTheirPlace) {
     EXPECT_NE(message("J1 \u00e9").find("'\u00e9' does not belong"), std::string::npos) << message("J1 \u00e9");
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::signature_test

@@ -8,8 +8,7 @@
 #include <complex>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::solve_test {
 
 using namespace graze::testing;
 
@@ -226,5 +225,4 @@ TEST(FindOrbit, SlipsBelowRoundOffAreNotPartOfAnOrbit) {
     EXPECT_TRUE(slips.certificate.admissible) << slips.certificate.reason;
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::solve_test

@@ -7,8 +7,7 @@
 
 #include <gmock/gmock.h>
 
-namespace graze {
-namespace {
+namespace graze::curve_picture_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -72,5 +71,4 @@ TEST(CurvePicture, LegendExplainsStylesUnlessEachBelongsToOneRun) {
     EXPECT_THAT(meanings(file, {"up", "down"}), IsEmpty());
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::curve_picture_test

@@ -8,9 +8,7 @@
 #include <numbers>
 #include <utility>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::curve_test {
 
 ContourGrid grid_of(double (*value)(double, double)) {
     ContourGrid grid;
@@ -23,8 +21,6 @@ ContourGrid grid_of(double (*value)(double, double)) {
             grid.values.push_back(value(x, y));
     return grid;
 }
-
-} // namespace
 
 TEST(Curve, SimplifiedStaysClose) {
     Polyline line;
@@ -141,4 +137,4 @@ TEST(ContourLines, LevelsAreRoundAndWithinTheRange) {
     EXPECT_TRUE(contour_line(holes, 20).empty());
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::curve_test

@@ -8,9 +8,7 @@
 
 #include <cmath>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::design_page_test {
 
 struct PageOfASwitch : public ::testing::Test {
     PageOfASwitch() {
@@ -48,8 +46,6 @@ struct PageOfASwitch : public ::testing::Test {
     std::optional<TripPoint> trip;
     DesignReport report;
 };
-
-} // namespace
 
 TEST_F(PageOfASwitch, CurvesHaveALineForEachClass) {
     const Figure page = design_page(design, *trip, report);
@@ -90,4 +86,4 @@ TEST_F(PageOfASwitch, TitleHasTripValueAndClass) {
     EXPECT_EQ(design_page(design, *trip, report).title, "switch: trips at V = 0.2, back at 0.1");
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::design_page_test

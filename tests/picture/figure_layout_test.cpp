@@ -15,12 +15,10 @@
 #include <set>
 #include <sstream>
 
-namespace graze::testing {
+namespace graze::testing::figure_layout_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-namespace {
 
 /// A column of text, a page of text, and a slide.
 const std::vector<FigureStyle> styles{{85, 0, 0, ""}, {170, 0, 0, ""}, {254, 143, 0, ""}, {85, 60, 7, ""}};
@@ -125,8 +123,6 @@ std::vector<std::string> raw_names(const FigureLayout& page, const Study& study,
             search(rich(label.text));
     return found;
 }
-
-} // namespace
 
 TEST(FigureLayout, NothingOverlaps) {
     for (const FigureStyle& style : styles)
@@ -267,4 +263,4 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedPictures, ::testing::ValuesIn(shipped_studi
     return name;
 });
 
-} // namespace graze::testing
+} // namespace graze::testing::figure_layout_test

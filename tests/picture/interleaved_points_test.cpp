@@ -10,9 +10,7 @@
 #include <set>
 #include <utility>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::interleaved_points_test {
 
 PanelLayout layout_with(const Box& frame) { // both axes go from 0 to 1
     PanelLayout layout;
@@ -46,8 +44,6 @@ FigurePanel panel_of(std::size_t series, std::size_t points) {
     }
     return panel;
 }
-
-} // namespace
 
 // The last dot at each point is visible.
 TEST(InterleavedDots, ShowAllOverlappingSeries) {
@@ -163,4 +159,4 @@ TEST(InterleavedCrosses, EachSeriesIsOnTopEquallyOften) {
     }
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::interleaved_points_test

@@ -4,11 +4,9 @@
 
 #include <cmath>
 
-namespace graze::testing {
+namespace graze::testing::label_places_test {
 
 using ::testing::ElementsAre;
-
-namespace {
 
 const Box frame{0, 0, 300, 200};
 
@@ -21,8 +19,6 @@ FigurePanel unit_panel() {
     panel.x_range = panel.y_range = std::pair(0.0, 1.0);
     return panel;
 }
-
-} // namespace
 
 TEST(LabelPlaces, ALabelStandsAtItsPoint) {
     FigurePanel panel = unit_panel();
@@ -145,4 +141,4 @@ TEST(LabelPlaces, LabelsAvoidCurves) {
             EXPECT_FALSE(label.box.holds(PlanePoint{x, y})) << x;
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::label_places_test

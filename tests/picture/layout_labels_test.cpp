@@ -7,8 +7,7 @@
 
 #include <algorithm>
 
-namespace graze::testing {
-namespace {
+namespace graze::testing::layout_labels_test {
 
 /// True when a polygon of a layer in the flattened drawing contains a point.
 bool has(const Layout& layout, MaskLayer layer, GridPoint at) {
@@ -81,5 +80,4 @@ TEST(LayoutLabels, ScaleBarsAreRound) {
     EXPECT_DOUBLE_EQ(round_length(0.03), 0.02);
 }
 
-} // namespace
-} // namespace graze::testing
+} // namespace graze::testing::layout_labels_test

@@ -2,9 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::legend_test {
 
 FigurePanel panel_of(std::size_t runs) {
     FigurePanel panel;
@@ -14,8 +12,6 @@ FigurePanel panel_of(std::size_t runs) {
     panel.series.back().only_in_legend = true;
     return panel;
 }
-
-} // namespace
 
 TEST(Legend, CountsEntriesThatAreLeftOut) {
     EXPECT_EQ(legend_entries(panel_of(24)).size(), 25U);
@@ -83,4 +79,4 @@ TEST(Legend, EntriesFitTheWidthWithoutOverlap) {
     }
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::legend_test

@@ -6,11 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-namespace graze::testing {
+namespace graze::testing::page_line_test {
 
 using ::testing::ElementsAre;
-
-namespace {
 
 const Box frame{0, 0, 300, 200};
 const DashPattern dashed = dash_pattern(FigureSeries::Style::dashed, 1);
@@ -47,8 +45,6 @@ std::vector<std::size_t> counts_of(const std::vector<FigureSeries>& series) {
 FigureSeries line(std::size_t colour, std::vector<PlanePoint> points) {
     return {"", FigureSeries::Style::line, colour, std::move(points)};
 }
-
-} // namespace
 
 TEST(PageLine, DashesOfCoincidingLinesCoincide) {
     const auto one = dashes_of({{1, 100}, {299, 100}}, dashed, frame);
@@ -102,4 +98,4 @@ TEST(CoveredLines, LinesOfOneColourHaveOneCount) {
     EXPECT_THAT(counts_of({line(0, {{0, 0}, {1, 1}}), line(0, {{0, 0}, {1, 1}})}), ElementsAre(0, 0));
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::page_line_test

@@ -8,9 +8,7 @@
 #include <limits>
 #include <utility>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::panel_axis_test {
 
 FigurePanel panel_between(double low, double high) {
     FigurePanel panel;
@@ -24,8 +22,6 @@ std::string texts_of(const PanelAxis& axis) {
         texts += letters_of(tic.text) + ' ';
     return texts;
 }
-
-} // namespace
 
 TEST(PanelAxis, LabelsHaveTheNecessaryDigits) {
     EXPECT_EQ(texts_of(panel_axis(panel_between(0, 1), true, 300, 9)), "0.0 0.2 0.4 0.6 0.8 1.0 ");
@@ -91,4 +87,4 @@ TEST(PanelAxis, RangeIncludesAllData) {
     EXPECT_EQ(panel_axis(panel, true, 300, 9).high, 1);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::panel_axis_test

@@ -12,8 +12,7 @@
 
 #include <gmock/gmock.h>
 
-namespace graze {
-namespace {
+namespace graze::point_names_test {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
@@ -148,5 +147,4 @@ TEST(PointNamesOfStudies, AreRefusedIfAmbiguous) {
     EXPECT_THAT(refusal("{ touch = \"a\" }"), HasSubstr("no point has the label 'touch'"));
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::point_names_test

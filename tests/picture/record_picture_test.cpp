@@ -13,8 +13,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::record_picture_test {
 
 using testing::waves;
 
@@ -135,5 +134,4 @@ run = "r"
     EXPECT_NEAR(highest, 2, 1e-12); // extrema are kept
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::record_picture_test

@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace graze::testing {
+namespace graze::testing::residual_picture_test {
 
 // Residuals are measured less fitted values.
 TEST(ResidualPicture, ShowsMeasuredValuesAndResiduals) {
@@ -43,4 +43,4 @@ gives = { natural_frequency = "w0", damping_ratio = "zeta" }
         EXPECT_NEAR(left[i].y, measured[i].y - fitted[i].y, 1e-15);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::residual_picture_test

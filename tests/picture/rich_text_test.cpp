@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace graze::testing {
+namespace graze::testing::rich_text_test {
 
 using ::testing::ElementsAre;
 
@@ -61,4 +61,4 @@ TEST(RichText, WidthsEqualThoseOfDejaVuSans) {
     EXPECT_NEAR(width_of(rich("00")), 2 * 1303.0 / 2048, 1e-3);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::rich_text_test

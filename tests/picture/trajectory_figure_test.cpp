@@ -8,9 +8,7 @@
 
 #include <cmath>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::trajectory_figure_test {
 
 /// @param columns names of values; @param histories the number of columns, from the first, that are drawn over time
 Figure drawn(const Model& model, double time, const std::vector<std::string>& columns, std::size_t histories,
@@ -38,8 +36,6 @@ const FigureSeries* series(const FigurePanel& panel, const std::string& title) {
             return &one;
     return nullptr;
 }
-
-} // namespace
 
 // The velocity of a ball falls along each arc and rises only at contacts.
 TEST(TrajectoryFigure, CurvesAreInterruptedAtJumps) {
@@ -94,4 +90,4 @@ rates = { x = "x^2" }
     EXPECT_GT(figure.panels[0].x_range->second, 1);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::trajectory_figure_test

@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-namespace graze {
-namespace {
+namespace graze::trip_series_test {
 
 TripTime trip(double time, std::size_t contacts) {
     TripTime result;
@@ -42,5 +41,4 @@ TEST(TripSeries, NoTripsGiveNoSeries) {
     EXPECT_TRUE(panel.series.empty());
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::trip_series_test

@@ -8,8 +8,7 @@
 #include <sys/file.h>
 #include <thread>
 
-namespace graze::testing {
-namespace {
+namespace graze::testing::acquire_test {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -89,8 +88,6 @@ int killed(const Experiment& experiment, const std::string& records, unsigned se
         EXPECT_TRUE(code == -signal || code == 128 + signal) << code << process.printed();
     }
 }
-
-} // namespace
 
 TEST(Acquire, RecordsAllLevelsOnceAndNothingTheSecondTime) {
     const Experiment experiment;
@@ -185,4 +182,4 @@ TEST(Bench, RefusesWrongOptions) {
     EXPECT_EQ(folder.files(), 0U);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::acquire_test

@@ -5,12 +5,10 @@
 
 #include <gmock/gmock.h>
 
-namespace graze::testing {
+namespace graze::testing::branch_picture_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-namespace {
 
 class BranchPicture : public BranchResults {
 protected:
@@ -41,8 +39,6 @@ protected:
         return values;
     }
 };
-
-} // namespace
 
 TEST_F(BranchPicture, LinesChangeTheirStyleWithStability) {
     const Figure figure = drawn(picture_of("", {"first"}));
@@ -201,4 +197,4 @@ TEST_F(BranchPicture, WrongOptionsAreRefused) {
     EXPECT_FALSE(std::filesystem::exists(folder / "no.svg"));
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::branch_picture_test

@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace graze::testing {
+namespace graze::testing::check_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -134,4 +134,4 @@ TEST(Check, NamesTheProgramToInstall) {
     EXPECT_EQ(folder.files(), 1U);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::check_test

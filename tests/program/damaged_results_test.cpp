@@ -8,13 +8,11 @@
 
 #include <memory>
 
-namespace graze::testing {
+namespace graze::testing::damaged_results_test {
 
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-
-namespace {
 
 constexpr const char* study = R"(
 name = "small"
@@ -75,8 +73,6 @@ std::vector<std::string> changes_of(const std::string& path) {
     return changes;
 }
 
-} // namespace
-
 TEST(DamagedResultsSlow, AreUsedOrRefusedWithTheNameOfTheFile) {
     const Folder folder;
     std::ofstream(folder / "small.toml") << study;
@@ -92,19 +88,24 @@ TEST(DamagedResultsSlow, AreUsedOrRefusedWithTheNameOfTheFile) {
         {"export", copy, "--what", "samples", "--format", "csv"},
         {"export", copy, "--what", "multipliers", "--format", "json"},
         {"export", copy, "--format", "hdf5", "--output", folder / "all.h5"},
-        {"run", copy, "--quiet", "--no-pictures", "--output", copy}};
-    std::size_t refused = 0, used = 0;
+        {"run", copy, "--quiet", "--no-pictures", "--output", copy}}; // comes last, since it writes into the file
+    std::size_t refused = 0, used = 0, changed = 0;
     const std::vector<std::string> changes = changes_of(whole + "/results.sqlite");
     EXPECT_GT(changes.size(), 30U);
     for (const std::string& change : changes)
         for (const char* text : {"''", "NULL", "'{'", "'{\"name\": 1}'", "char(27) || '[2J'"}) {
             const std::string sql = std::string(change).replace(change.find("%s"), 2, text);
-            for (const std::vector<std::string>& command : commands) {
+            std::filesystem::copy_file(whole + "/results.sqlite", file,
+                                       std::filesystem::copy_options::overwrite_existing);
+            rows_of(opened(file).get(), "PRAGMA synchronous = OFF; " + sql);
+            ++changed;
+            for (std::size_t c = 0; c < commands.size(); ++c) {
+                const std::vector<std::string>& command = commands[c];
+                // Every command meets every change, and every text; of the pairs of both, a half.
+                if ((c + changed) % 2 == 0 && text != std::string_view("'{'"))
+                    continue;
                 if (command[0] == "plot" && text != std::string_view("'{'")) // gnuplot is slow
                     continue;
-                std::filesystem::copy_file(whole + "/results.sqlite", file,
-                                           std::filesystem::copy_options::overwrite_existing);
-                rows_of(opened(file).get(), sql);
                 const Printed printed = run_graze(command);
                 ++(printed.code == exit_success ? used : refused);
                 EXPECT_THAT(printed.code, AnyOf(exit_success, exit_bad_input, exit_irregular))
@@ -123,4 +124,4 @@ TEST(DamagedResultsSlow, AreUsedOrRefusedWithTheNameOfTheFile) {
     std::cout << changes.size() << " changes, " << refused << " refused, " << used << " used\n";
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::damaged_results_test

@@ -8,11 +8,9 @@
 #include <filesystem>
 #include <fstream>
 
-namespace graze::testing {
+namespace graze::testing::design_command_test {
 
 using ::testing::HasSubstr;
-
-namespace {
 
 /// A design with few points, which is computed fast. @param further text at the end of the file
 std::string small_design(const std::string& further = "") {
@@ -43,8 +41,6 @@ struct DesignCommand : public ::testing::Test {
     std::string design(const std::string& text) const { return folder.write("small.toml", text); }
     Folder folder;
 };
-
-} // namespace
 
 TEST_F(DesignCommand, WritesTablesAPageAndTheDevice) {
     const std::string results = folder / "results";
@@ -218,4 +214,4 @@ TEST_F(DesignCommand, ReportsThePlacesOfMistakes) {
     EXPECT_THAT(refusal("adjustable = \"delta\"", "adjustable = \"omega\""), HasSubstr("no dimension 'omega'"));
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::design_command_test

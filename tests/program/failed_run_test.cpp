@@ -4,13 +4,11 @@
 
 #include <gmock/gmock.h>
 
-namespace graze::testing {
+namespace graze::testing::failed_run_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-namespace {
 
 class FailedRun : public ::testing::Test {
 protected:
@@ -40,8 +38,6 @@ protected:
     Printed first;
     static constexpr const char* why = "run 'rest' has no point 'GR1'; it has EP1";
 };
-
-} // namespace
 
 TEST_F(FailedRun, IsListedWithItsReasonByEveryCommand) {
     EXPECT_EQ(first.code, exit_irregular) << first.err;
@@ -82,4 +78,4 @@ TEST_F(FailedRun, IsNotListedAsFailedAfterItSucceeds) {
     EXPECT_THAT(runs, AllOf(Not(HasSubstr("failed")), Not(HasSubstr(why))));
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::failed_run_test

@@ -8,11 +8,9 @@
 #include <tuple>
 #include <utility>
 
-namespace graze::testing {
+namespace graze::testing::fit_command_test {
 
 using ::testing::HasSubstr;
-
-namespace {
 
 constexpr double decay = 0.3, frequency = 2, displacement = 1.5;
 
@@ -53,8 +51,6 @@ force = { value = "-k*x", unit = "m/s^2" }
     const Folder folder;
     const double stiffness = frequency * frequency + decay * decay;
 };
-
-} // namespace
 
 TEST_F(FitCommand, FindsParametersThatOtherCommandsTake) {
     const std::string found = folder / "found.toml";
@@ -212,4 +208,4 @@ TEST_F(FitCommand, MistakesAreOneLineWithARemedy) {
     EXPECT_EQ(run_graze("identify decrement " + a + " --free c").code, 2);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::fit_command_test

@@ -8,9 +8,7 @@
 
 #include <cmath>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::full_disk_test {
 
 constexpr const char* study = R"(
 name = "small"
@@ -64,8 +62,6 @@ protected:
     Folder folder;
 };
 
-} // namespace
-
 TEST_F(FullDisk, RecordsAreWrittenWholeOrNotAtAll) {
     for (const char* name : {"w.h5", "w.csv"})
         refuse({"record", folder / "r.csv", "--write", "OUT"}, name);
@@ -86,4 +82,4 @@ TEST_F(FullDisk, TablesAndDrawingsAreWrittenWholeOrNotAtAll) {
     refuse({"layout", "mems-switch-device", "--output", "OUT", "--format", "csv"}, "d.gds");
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::full_disk_test

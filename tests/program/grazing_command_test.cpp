@@ -9,11 +9,9 @@
 #include <fstream>
 #include <sstream>
 
-namespace graze::testing {
+namespace graze::testing::grazing_command_test {
 
 using ::testing::HasSubstr;
-
-namespace {
 
 /// The value of a quantity in the command's table.
 std::string value_of(const Csv& csv, const std::string& quantity) {
@@ -35,8 +33,6 @@ struct GrazingCommand : public ::testing::Test {
     }
     Folder folder;
 };
-
-} // namespace
 
 TEST_F(GrazingCommand, FindsTheGrowthOfJumpsOfBallAndShaker) {
     const std::string results = run_only("ball-and-shaker", {"rest_6Hz", "touch_6Hz", "rest_18Hz", "touch_18Hz"});
@@ -163,4 +159,4 @@ along = { omega = [0.15, 0.3] }
     EXPECT_EQ(trip.code, 2);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::grazing_command_test

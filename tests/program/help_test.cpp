@@ -7,13 +7,11 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace graze::testing {
+namespace graze::testing::help_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
-
-namespace {
 
 const std::vector<std::string> commands{"check",  "models", "simulate", "run",   "info",    "export",    "plot",
                                         "points", "orbit",  "grazing",  "trip",  "ladder",  "tolerance", "design",
@@ -47,8 +45,6 @@ void expect_among(const std::vector<std::string>& words, const std::vector<std::
     for (const std::string& word : words)
         EXPECT_NE(std::find(offered.begin(), offered.end(), word), offered.end()) << word;
 }
-
-} // namespace
 
 TEST(Help, CommandAndOptionPrintTheSame) {
     EXPECT_EQ(run_graze("help").out, run_graze("--help").out);
@@ -161,4 +157,4 @@ TEST(Help, RefusesUnknownCommandsAndShells) {
         expect_refusal(line, message);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::help_test

@@ -17,8 +17,7 @@
 #include <cstdlib>
 #include <random>
 
-namespace graze {
-namespace {
+namespace graze::hostile_test {
 
 using namespace graze::testing;
 using ::testing::AnyOf;
@@ -364,5 +363,4 @@ TEST_F(HostileResults, ControlCharactersArePrintedAsCodes) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::hostile_test

@@ -7,11 +7,9 @@
 
 #include <fmt/format.h>
 
-namespace graze::testing {
+namespace graze::testing::identify_command_test {
 
 using ::testing::HasSubstr;
-
-namespace {
 
 constexpr double natural = 95.94, damping = 0.01626, beta1 = 1.902e-5, beta2 = 1.631e-3, gap = 4.79e-3;
 constexpr double stiffness = 5948, resistance = 1.39, leakage = 10.55e-3;
@@ -53,8 +51,6 @@ protected:
 Csv identified(const std::string& line) {
     return Csv(done("identify " + line + " --format csv"));
 }
-
-} // namespace
 
 TEST_F(IdentifyCommand, FindsFrequencyAndDamping) {
     const Csv table = identified("decrement " + release("a.csv", 1) + " " + release("b.csv", 0.5));
@@ -242,4 +238,4 @@ TEST_F(IdentifyCommand, ComputesOnlyTheIdentifyRunsOfAStudy) {
     EXPECT_THAT(run_graze("identify decrement").err, HasSubstr("no records are named"));
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::identify_command_test

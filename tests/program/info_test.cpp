@@ -10,14 +10,12 @@
 
 #include <sys/stat.h>
 
-namespace graze::testing {
+namespace graze::testing::info_test {
 
 using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
 using ::testing::Not;
 using ::testing::StartsWith;
-
-namespace {
 
 using Info = BranchResults;
 
@@ -54,8 +52,6 @@ void write_model(const std::string& path) {
            "[events.low]\nfunction = \"x - 0.1\"\nkind = \"section\"\n[[transitions]]\nmode = \"m\"\n"
            "event = \"low\"\nnext = [{ mode = \"end\" }]\n[sections.s]\nfunction = \"x - 0.5\"\n";
 }
-
-} // namespace
 
 TEST_F(Info, CountsPointsOfResults) {
     write_branches();
@@ -175,4 +171,4 @@ TEST_F(Info, RefusesUnreadableInputs) {
         expect_refusal(words, message);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::info_test

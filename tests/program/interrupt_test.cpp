@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
-namespace graze::testing {
+namespace graze::testing::interrupt_test {
 
 class Interrupt : public ::testing::TestWithParam<int> {};
 class EndingSignal : public ::testing::TestWithParam<int> {};
@@ -97,4 +97,4 @@ INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, ::testing::Values(SIGINT, SIGTERM))
 INSTANTIATE_TEST_SUITE_P(Signals, EndingSignal,
                          ::testing::Values(SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGALRM, SIGUSR1, SIGXCPU));
 
-} // namespace graze::testing
+} // namespace graze::testing::interrupt_test

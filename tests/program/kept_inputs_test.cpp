@@ -13,11 +13,9 @@
 #include <functional>
 #include <map>
 
-namespace graze::testing {
+namespace graze::testing::kept_inputs_test {
 
 using ::testing::HasSubstr;
-
-namespace {
 
 /// Calls `work` with every declared option, and the command that it belongs to.
 void for_each_option(const std::function<void(const CLI::App&, const CLI::Option&)>& work) {
@@ -43,8 +41,6 @@ std::vector<std::string> command_line(const CLI::App& command, const CLI::Option
                 words.insert(words.end(), {"--plot", input + "-other.svg"});
     return words;
 }
-
-} // namespace
 
 TEST(KeptInputs, NoCommandReplacesAFileThatItReads) {
     const Folder folder;
@@ -81,8 +77,6 @@ TEST(KeptInputs, OptionsThatWriteAreDeclaredAsFileOrFolder) {
     });
 }
 
-namespace {
-
 /// An input in the output folder that has the name of an output.
 struct InputInFolder {
     std::string name, text;
@@ -108,8 +102,6 @@ std::map<std::string, std::vector<InputInFolder>> inputs_in_folders() {
         {"help", {}},
     };
 }
-
-} // namespace
 
 /// A new command that writes into a folder must be added to inputs_in_folders.
 TEST(KeptInputs, NoOutputInAFolderReplacesAnInput) {
@@ -188,4 +180,4 @@ TEST(KeptInputs, ProtectionEndsWithTheList) {
     EXPECT_EQ(contents(path), "2");
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::kept_inputs_test

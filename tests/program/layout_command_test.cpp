@@ -6,8 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace graze::testing {
-namespace {
+namespace graze::testing::layout_command_test {
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -210,5 +209,4 @@ TEST_F(LayoutCommand, WritesNoFilesOfAWrongDesign) {
     EXPECT_EQ(folder.files(), 1U);
 }
 
-} // namespace
-} // namespace graze::testing
+} // namespace graze::testing::layout_command_test

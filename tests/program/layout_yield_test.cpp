@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <fstream>
 
-namespace graze::testing {
-namespace {
+namespace graze::testing::layout_yield_test {
 
 using ::testing::HasSubstr;
 
@@ -122,5 +121,4 @@ TEST(LayoutYield, RefusesDesignsWithoutADevice) {
     EXPECT_EQ(run_graze({"layout", "mems-switch-device", "--yield", "-3"}).code, 2);
 }
 
-} // namespace
-} // namespace graze::testing
+} // namespace graze::testing::layout_yield_test

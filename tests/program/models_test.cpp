@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace graze::testing {
+namespace graze::testing::models_test {
 
 using ::testing::HasSubstr;
 
@@ -28,4 +28,4 @@ TEST(Models, WritesMembersOfTheBeamFamily) {
     EXPECT_THAT(check, HasSubstr("Gauss's rule with 12 nodes"));
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::models_test

@@ -5,9 +5,7 @@
 
 #include <cmath>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::mutated_records_test {
 
 /// A displacement and its velocity, which jumps twice in each period.
 Samples motion(int rows) {
@@ -46,8 +44,6 @@ const std::vector<UseOfFile> uses{
     {{"info", "FILE"}},
 };
 
-} // namespace
-
 TEST_F(MutatedFiles, TextRecordsAreUsedOrRefused) {
     try_texts("r.csv", {record_of(folder / "whole.csv", 200)}, uses, 2 * uses.size());
 }
@@ -56,4 +52,4 @@ TEST_F(MutatedFiles, Hdf5RecordsAreUsedOrRefused) {
     try_bytes("r.h5", record_of(folder / "whole.h5", 100), uses, 2 * uses.size());
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::mutated_records_test

@@ -6,9 +6,7 @@
 
 #include <memory>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::mutated_results_test {
 
 constexpr const char* study = R"(
 name = "small"
@@ -99,8 +97,6 @@ void change_cells(const std::string& path, std::mt19937& random) {
     sqlite3_exec(opened, change.c_str(), nullptr, nullptr, nullptr); // changes that constraints forbid are not made
 }
 
-} // namespace
-
 TEST_F(MutatedFiles, ResultsWithChangedBytesAreUsedOrRefused) {
     try_bytes("r.sqlite", whole_file(), uses, 2 * uses.size());
 }
@@ -114,4 +110,4 @@ TEST_F(MutatedFiles, ResultsWithChangedCellsAreUsedOrRefused) {
     }
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::mutated_results_test

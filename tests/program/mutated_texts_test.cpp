@@ -2,7 +2,7 @@
 
 #include "mutated_files.hpp"
 
-namespace graze::testing {
+namespace graze::testing::mutated_texts_test {
 
 TEST_F(MutatedFiles, ModelsAreUsedOrRefused) {
     const Words texts{source("models/bouncing-ball.toml"), source("models/impact-oscillator.toml"),
@@ -74,4 +74,4 @@ TEST_F(MutatedFiles, OrbitTablesAreUsedOrRefused) {
               {{{"run", study, "--output", "OUT/r", "--no-pictures", "--jobs", "1"}, true}}, 15);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::mutated_texts_test

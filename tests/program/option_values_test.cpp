@@ -8,11 +8,9 @@
 #include <map>
 #include <set>
 
-namespace graze::testing {
+namespace graze::testing::option_values_test {
 
 using ::testing::HasSubstr;
-
-namespace {
 
 using Words = std::vector<std::string>;
 
@@ -55,8 +53,6 @@ const std::set<std::string>& judged_by_commands() {
         "FONT",  "T",      "DT",    "MODES",  "ADDRESS", "COMMAND", "NAME=TEXT",  "NAME=VALUE", "NAME=SIZE"};
     return all;
 }
-
-} // namespace
 
 /// Every option whose value is a number or one of a list of words refuses other values before files are read or made.
 TEST(OptionValues, NumbersAndWordsAreCheckedBeforeAnyWork) {
@@ -129,4 +125,4 @@ TEST(OptionValues, CommandsRefuseWrongValues) {
         }
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::option_values_test

@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::option_words_test {
 
 TEST(OptionWords, NameTheOptionThatDoesWhatTheLibraryAdvises) {
     EXPECT_EQ(in_options("r.csv: the record has no rows; give one with rows, and let `part` leave some"),
@@ -50,5 +49,4 @@ TEST(OptionWords, AFileThatIsNamedLikeAnOptionIsToldAsAFile) {
     EXPECT_EQ(in_options("at: it is no number", arguments), "--at: it is no number");
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::option_words_test

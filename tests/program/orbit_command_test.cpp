@@ -5,12 +5,10 @@
 #include <gmock/gmock.h>
 #include <limits>
 
-namespace graze::testing {
+namespace graze::testing::orbit_command_test {
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-
-namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 using OrbitCommand = BranchResults;
@@ -48,8 +46,6 @@ next = [{ mode = "free" }]
 [symmetries.mirror]
 map = { x = "-x", v = "-v" }
 )";
-
-} // namespace
 
 TEST_F(OrbitCommand, PrintsTheMotionOverOnePeriod) {
     write_branches();
@@ -182,4 +178,4 @@ TEST_F(OrbitCommand, DrawsPortraitsAndHistories) {
     EXPECT_THAT(run_graze({"orbit", path, "first:SN1", "--plot", picture, "--y", "z"}).err, HasSubstr("z"));
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::orbit_command_test

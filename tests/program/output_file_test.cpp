@@ -5,17 +5,13 @@
 
 #include <gmock/gmock.h>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::output_file_test {
 
 using std::filesystem::perms;
 
 perms permissions_of(const std::string& path) {
     return std::filesystem::status(path).permissions();
 }
-
-} // namespace
 
 TEST(OutputFile, ReplacesTheWholeFileOrNothing) {
     const Folder folder;
@@ -96,4 +92,4 @@ TEST(OutputFile, RefusesUnwritablePaths) {
     EXPECT_EQ(folder.files(), 0U);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::output_file_test

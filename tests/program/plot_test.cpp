@@ -3,11 +3,9 @@
 
 #include <gmock/gmock.h>
 
-namespace graze::testing {
+namespace graze::testing::plot_test {
 
 using ::testing::HasSubstr;
-
-namespace {
 
 class Plot : public ::testing::Test {
 protected:
@@ -17,8 +15,6 @@ protected:
     }
     Folder folder;
 };
-
-} // namespace
 
 TEST_F(Plot, DrawsEveryShippedModelWithoutATable) {
     for (const std::string model :
@@ -71,4 +67,4 @@ TEST_F(Plot, IsRefusedBeforeTheRunIfItCannotBeWritten) {
     expect_refusal("simulate mems-switch --plot " + (folder / "no/such/folder.svg"), "cannot be written");
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::plot_test

@@ -2,13 +2,11 @@
 
 #include <gmock/gmock.h>
 
-namespace graze::testing {
+namespace graze::testing::points_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
-
-namespace {
 
 using Points = BranchResults;
 
@@ -22,8 +20,6 @@ std::string unquoted(const std::string& csv) {
     }
     return text;
 }
-
-} // namespace
 
 TEST_F(Points, ListsSpecialPointsOfABranch) {
     write_branches();
@@ -219,4 +215,4 @@ TEST_F(Points, ExportNamesTheTablesOfARun) {
     EXPECT_GT(std::filesystem::file_size(folder / "all.h5"), 10'000U);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::points_test

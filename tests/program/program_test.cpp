@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace graze::testing {
+namespace graze::testing::program_test {
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -176,4 +176,4 @@ TEST(Program, FullDeviceIsReported) {
     EXPECT_THAT(err.str(), HasSubstr("standard output"));
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::program_test

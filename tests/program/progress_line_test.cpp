@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace graze {
-namespace {
+namespace graze::progress_line_test {
 
 TEST(ProgressLine, CountsPointsOfTheRunAndOfTheStudy) {
     StudyProgress progress;
@@ -24,5 +23,4 @@ TEST(ProgressLine, CountsPointsOfTheRunAndOfTheStudy) {
               "down: 30 of 200 points, 15 %, more than 3 s left");
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::progress_line_test

@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-namespace graze::testing {
+namespace graze::testing::promises_test {
 
 using ::testing::HasSubstr;
 
@@ -72,4 +72,4 @@ TEST(Promises, TablesOfRecordsHaveASizeLimit) {
     }
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::promises_test

@@ -7,11 +7,9 @@
 #include <fmt/format.h>
 #include <optional>
 
-namespace graze::testing {
+namespace graze::testing::record_command_test {
 
 using ::testing::HasSubstr;
-
-namespace {
 
 const double turn = 2 * std::acos(-1.0);
 
@@ -35,8 +33,6 @@ protected:
     }
     const Folder folder;
 };
-
-} // namespace
 
 TEST_F(RecordCommand, DescribesChannels) {
     const Csv table(done("record " + file("run.csv") + " --format csv"));
@@ -216,4 +212,4 @@ TEST_F(RecordCommand, MistakesAreOneLineWithARemedy) {
         expect_refusal("record " + line, message);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::record_command_test

@@ -8,8 +8,7 @@
 #include <regex>
 #include <set>
 
-namespace graze::testing {
-namespace {
+namespace graze::testing::remedies_test {
 
 /// The string literals of a source file; raw ones have all their lines.
 std::vector<std::string> literals(const std::string& source) {
@@ -149,5 +148,4 @@ TEST(Remedies, NameOptionsThatExist) {
     EXPECT_GT(of_commands, 60u);
 }
 
-} // namespace
-} // namespace graze::testing
+} // namespace graze::testing::remedies_test

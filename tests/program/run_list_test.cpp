@@ -4,11 +4,9 @@
 
 #include <gmock/gmock.h>
 
-namespace graze::testing {
+namespace graze::testing::run_list_test {
 
 using ::testing::HasSubstr;
-
-namespace {
 
 class RunList : public ::testing::Test {
 protected:
@@ -54,8 +52,6 @@ sample = { top = { maxima = "h" } }
     Folder folder;
 };
 
-} // namespace
-
 TEST_F(RunList, HasARemedyForChattering) {
     const std::string printed = done(list("table"));
     EXPECT_THAT(printed, HasSubstr("chattering 1"));
@@ -81,4 +77,4 @@ TEST_F(RunList, HasACellForEachNumberInCsv) {
     EXPECT_TRUE(JsonCheck(list("json").out).valid());
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::run_list_test

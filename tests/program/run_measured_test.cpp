@@ -8,8 +8,7 @@
 
 #include <string>
 
-namespace graze::testing {
-namespace {
+namespace graze::testing::run_measured_test {
 
 using ::testing::HasSubstr;
 
@@ -62,5 +61,4 @@ TEST(RunMeasured, UnreadableRecordsAreRefused) {
     EXPECT_THAT(wrong.err, HasSubstr("a.csv:3:"));
 }
 
-} // namespace
-} // namespace graze::testing
+} // namespace graze::testing::run_measured_test

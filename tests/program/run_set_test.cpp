@@ -6,11 +6,9 @@
 #include <filesystem>
 #include <fstream>
 
-namespace graze::testing {
+namespace graze::testing::run_set_test {
 
 using ::testing::HasSubstr;
-
-namespace {
 
 /// A study of x' = -k x from x(0) = 1, with x(1) = exp(-k).
 class RunSet : public ::testing::Test {
@@ -34,8 +32,6 @@ protected:
     }
     Folder folder;
 };
-
-} // namespace
 
 TEST_F(RunSet, UsesAndStoresTheValues) {
     ASSERT_EQ(run({"--output", folder / "own"}).code, 0);
@@ -102,4 +98,4 @@ TEST_F(RunSet, RefusesUnknownNamesAndValues) {
     expect_refusal({"run", folder / "a", "--set", "k=2"}, "name the study instead of its results");
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::run_set_test

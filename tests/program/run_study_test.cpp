@@ -17,8 +17,7 @@
 #include <sstream>
 #include <thread>
 
-namespace graze::testing {
-namespace {
+namespace graze::testing::run_study_test {
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -327,5 +326,4 @@ TEST_F(RunStudyTest, NamesWithoutEndingSuggestTheFile) {
     EXPECT_THAT(of_model.err, HasSubstr("there is no shipped model 'mine'; the file is called mine.toml"));
 }
 
-} // namespace
-} // namespace graze::testing
+} // namespace graze::testing::run_study_test

@@ -6,11 +6,9 @@
 #include <gmock/gmock.h>
 #include <numbers>
 
-namespace graze::testing {
+namespace graze::testing::simulate_test {
 
 using ::testing::HasSubstr;
-
-namespace {
 
 using std::numbers::pi;
 
@@ -71,8 +69,6 @@ protected:
     }
     Folder folder;
 };
-
-} // namespace
 
 TEST_F(Simulate, SamplesFollowTheClosedForm) {
     const Csv table = csv("oscillator.toml", "--time 3 --samples 31 --quantity energy x+w*v");
@@ -230,4 +226,4 @@ TEST_F(Simulate, OutputIsCompleteOrMissing) {
     EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::simulate_test

@@ -12,9 +12,7 @@
 #include <fstream>
 #include <sys/wait.h>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::standard_streams_test {
 
 /// The exit code of a shell command: `before`, the program with `words`, `after`. The caller quotes them.
 int exit_code_of(const std::string& before, const std::string& words, const std::string& after) {
@@ -30,8 +28,6 @@ protected:
     }
     Folder folder;
 };
-
-} // namespace
 
 TEST_F(StandardStreams, MessagesToAClosedStreamReachNoFile) {
     const std::string words = fmt::format("record '{}' --write '{}'", record(), folder / "out.csv");
@@ -90,4 +86,4 @@ TEST_F(StandardStreams, NoLibraryIsLoadedFromTheCurrentFolder) {
     EXPECT_GT(needed, 0U);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::standard_streams_test

@@ -4,12 +4,10 @@
 
 #include <gmock/gmock.h>
 
-namespace graze::testing {
+namespace graze::testing::step_lines_test {
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-
-namespace {
 
 /// An oscillator whose force grows until it grazes its stop.
 constexpr const char* study = R"(
@@ -27,8 +25,6 @@ direction = "up"
 [runs.rising.monitors]
 top = { maximum = "x" }
 )";
-
-} // namespace
 
 TEST(StepLines, HaveOneLineForEachOrbit) {
     const Folder folder;
@@ -54,4 +50,4 @@ TEST(StepLines, HaveOneLineForEachOrbit) {
     EXPECT_EQ(run_graze(words).err, "");
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::step_lines_test

@@ -8,11 +8,9 @@
 #include <cmath>
 #include <filesystem>
 
-namespace graze::testing {
+namespace graze::testing::study_pictures_test {
 
 using ::testing::HasSubstr;
-
-namespace {
 
 class KeptPictures : public ::testing::Test {
 protected:
@@ -41,8 +39,6 @@ protected:
     }
     Folder folder;
 };
-
-} // namespace
 
 TEST_F(KeptPictures, UnchangedPicturesAreNotDrawnAgain) {
     const std::string first = run();
@@ -88,4 +84,4 @@ TEST_F(KeptPictures, ValuesOfTheStudyCanBeDrawnOverTime) {
         EXPECT_NEAR(point.y, std::cos(2 * point.x) / 2, 1e-12);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::study_pictures_test

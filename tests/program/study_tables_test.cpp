@@ -7,12 +7,10 @@
 #include <filesystem>
 #include <fstream>
 
-namespace graze::testing {
+namespace graze::testing::study_tables_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-namespace {
 
 class StudyTables : public ::testing::Test {
 protected:
@@ -29,8 +27,6 @@ protected:
     std::filesystem::path table() const { return folder / "out/lows.csv"; }
     Folder folder;
 };
-
-} // namespace
 
 TEST_F(StudyTables, AreWrittenBesideTheResults) {
     const std::string printed = done(run(folder / "study.toml"));
@@ -77,4 +73,4 @@ TEST_F(StudyTables, NeverReplaceInputsOfTheStudy) {
     EXPECT_EQ(contents(folder / "study.toml"), before);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::study_tables_test

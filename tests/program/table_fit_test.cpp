@@ -7,13 +7,11 @@
 
 #include <cmath>
 
-namespace graze::testing {
+namespace graze::testing::table_fit_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-namespace {
 
 Table table_with(const std::vector<std::string>& names, const std::string& cell) {
     std::vector<Table::Column> columns;
@@ -31,8 +29,6 @@ std::vector<std::string> names(const Table& table) {
         result.push_back(column.name);
     return result;
 }
-
-} // namespace
 
 TEST(TableFit, KeepsColumnsThatFit) {
     // Three columns of four characters and two gaps of two.
@@ -102,4 +98,4 @@ TEST(TableFit, ShortensLongSignatures) {
     EXPECT_EQ(fitted(table, 8, 100, {}).table.number(0, 1), 1.0);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::table_fit_test

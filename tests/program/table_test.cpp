@@ -7,9 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::table_test {
 
 std::string written(const Table& table, TableFormat format, int digits = 17) {
     std::ostringstream out;
@@ -28,8 +26,6 @@ Table small_table() {
     }
     return table;
 }
-
-} // namespace
 
 TEST(Table, NumbersReadBackExactly) {
     std::mt19937_64 random(7);
@@ -108,4 +104,4 @@ TEST(Table, DropsOddRows) {
     }
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::table_test

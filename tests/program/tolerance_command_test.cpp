@@ -7,12 +7,10 @@
 #include <cmath>
 #include <filesystem>
 
-namespace graze::testing {
+namespace graze::testing::tolerance_command_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-namespace {
 
 struct ToleranceCommand : public ::testing::Test {
     void SetUp() override {
@@ -38,8 +36,6 @@ struct ToleranceCommand : public ::testing::Test {
     Folder folder;
     std::string results;
 };
-
-} // namespace
 
 TEST_F(ToleranceCommand, FindsDerivativesAtAnyTouch) {
     const Csv csv = table({"no_impact:GR1"});
@@ -135,4 +131,4 @@ TEST_F(ToleranceCommand, RefusesWrongPointsAndOptions) {
     refused({"no_impact:GR1", "--vary", "delta=1%", "--data", "x"}, "--plot FILE");
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::tolerance_command_test

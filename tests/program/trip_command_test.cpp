@@ -8,11 +8,9 @@
 #include <filesystem>
 #include <numbers>
 
-namespace graze::testing {
+namespace graze::testing::trip_command_test {
 
 using ::testing::HasSubstr;
-
-namespace {
 
 struct TripCommand : public ::testing::Test {
     std::string run_only(const std::string& study, const std::vector<std::string>& runs) {
@@ -31,8 +29,6 @@ struct TripCommand : public ::testing::Test {
     }
     Folder folder;
 };
-
-} // namespace
 
 TEST_F(TripCommand, TimesOfTheSwitchMatchPublishedOnes) {
     const std::string results = run_only("mems-switch", {"free", "no_impact"});
@@ -105,8 +101,6 @@ TEST_F(TripCommand, DrawsTripTimes) {
     EXPECT_THAT(contents(folder / "trip.gp"), HasSubstr("logscale x"));
 }
 
-namespace {
-
 /// The switch at the published frequency, and at another one, at which its branch has a fold before the grazing.
 const char* const two_ends = R"toml(
 name = "two-ends"
@@ -134,8 +128,6 @@ direction = "up"
 start = { run = "slower" }
 along = { V = [0.01, 0.4] }
 )toml";
-
-} // namespace
 
 TEST_F(TripCommand, ComparesAFoldWithATouch) {
     const std::string results = run_only(folder.write("two-ends.toml", two_ends), {});
@@ -240,4 +232,4 @@ TEST_F(TripCommand, FindsTripsUnderWavesAndNoise) {
     expect_refusal({results, "GR1", "--noise", "1", "--at", "0.199", "--overshoot", "1"}, "changes in time here");
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::trip_command_test

@@ -5,8 +5,7 @@
 
 #include <map>
 
-namespace graze::testing {
-namespace {
+namespace graze::testing::units_test {
 
 /// The texts of a named list in JSON.
 std::vector<std::string> list_of(const std::string& json, const std::string& name) {
@@ -92,5 +91,4 @@ along = { V0 = [1, 1.6] }
         ::testing::HasSubstr("\"units\":[\"V\",\"\",\"m\"]"));
 }
 
-} // namespace
-} // namespace graze::testing
+} // namespace graze::testing::units_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace graze {
-namespace {
+namespace graze::wrapped_text_test {
 
 TEST(WrappedText, BreaksOnlyBetweenWords) {
     EXPECT_EQ(wrapped("", 10), "");
@@ -23,5 +22,4 @@ TEST(WrappedText, IndentsAllLinesButTheFirst) {
     EXPECT_EQ(wrapped("one two three", 11, 4), "one two\n    three");
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::wrapped_text_test

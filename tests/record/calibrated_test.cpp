@@ -6,7 +6,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace graze::testing {
+namespace graze::testing::calibrated_test {
 
 TEST(Calibrated, ConvertsReadingsOfAPart) {
     const auto line = [](double t) { return t; };
@@ -32,4 +32,4 @@ TEST(Calibrated, RefusesInvalidSettings) {
     EXPECT_THROW(large.read(rows), InputError);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::calibrated_test

@@ -9,9 +9,7 @@
 #include <numbers>
 #include <vector>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::derivative_test {
 
 constexpr double turn = 2 * std::numbers::pi;
 
@@ -34,8 +32,6 @@ struct Errors {
         EXPECT_GT(within / count, 0.85);
     }
 };
-
-} // namespace
 
 TEST(Derivative, IsExactForPolynomialsOfFourthDegree) {
     const auto p = [](double t) { return 1e3 + t * (2 + t * (-3 + t * (0.5 - 0.25 * t))); };
@@ -176,4 +172,4 @@ TEST(Derivative, RefusesInvalidSettings) {
     EXPECT_THROW(derived.read(rows), InputError);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::derivative_test

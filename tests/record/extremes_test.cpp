@@ -9,11 +9,9 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace graze::testing {
+namespace graze::testing::extremes_test {
 
-namespace {
 constexpr double turn = 2 * std::numbers::pi;
-}
 
 TEST(Extremes, OfASineAreFoundBetweenSamples) {
     const auto wave = [](double t) { return 2 + 3 * std::sin(turn * 5 * t); };
@@ -91,4 +89,4 @@ TEST(Interpolate, IsOfThirdOrderNextToAJump) {
     EXPECT_THROW(interpolate(std::vector<double>{1}, std::vector<double>{1}, 1), InputError);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::extremes_test

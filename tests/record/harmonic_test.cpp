@@ -8,9 +8,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace graze::testing {
+namespace graze::testing::harmonic_test {
 
-namespace {
 constexpr double turn = 2 * std::numbers::pi;
 }
 
@@ -48,4 +47,4 @@ TEST(Harmonic, ErrorsFollowFromTheNoise) {
     }
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::harmonic_test

@@ -11,11 +11,9 @@
 #include <functional>
 #include <vector>
 
-namespace graze::testing {
+namespace graze::testing::hostile_record_test {
 
 using ::testing::HasSubstr;
-
-namespace {
 
 /// Why a record is refused; empty when it is not.
 std::string refusal_of(const std::string& path) {
@@ -60,8 +58,6 @@ void add_time(hid_t file, hsize_t rows = 3) {
 Hdf5Handle creation() {
     return {H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "", "there are no properties", ""};
 }
-
-} // namespace
 
 TEST(HostileRecord, LinksToOtherFilesAreIgnored) {
     const TemporaryFolder folder;
@@ -202,4 +198,4 @@ TEST(HostileRecord, PipesAndDevicesAreRefused) {
         EXPECT_THAT(refusal_of(path), HasSubstr("not a record"));
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::hostile_record_test

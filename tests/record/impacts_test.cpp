@@ -7,9 +7,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::impacts_test {
 
 /// Impacts of the simulation within the rows in which they can be found.
 std::vector<Recorder::RecordedContact> known(const RecordedModel& recorded, const std::string& velocity, double edge,
@@ -23,8 +21,6 @@ std::vector<Recorder::RecordedContact> known(const RecordedModel& recorded, cons
             result.push_back(contact);
     return result;
 }
-
-} // namespace
 
 TEST(Impacts, OfABouncingBallAreExact) {
     // Falls with 9.81 from 1 and bounces with 0.8: the velocity is linear between impacts.
@@ -135,4 +131,4 @@ TEST(Impacts, RefuseInvalidSettings) {
         EXPECT_THROW(ImpactFinder(borrowed(source), settings), InputError);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::impacts_test

@@ -8,9 +8,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::low_pass_test {
 
 constexpr double turn = 2 * std::numbers::pi;
 
@@ -19,8 +17,6 @@ Samples filtered(const LowPassSettings& settings, const std::function<double(dou
     LowPass filter(borrowed(source), settings);
     return read_all(filter, 1'000'000);
 }
-
-} // namespace
 
 TEST(LowPass, PassesThePassBandAndStopsTheStopBand) {
     for (const double attenuation : {40.0, 80.0, 120.0}) {
@@ -95,4 +91,4 @@ TEST(LowPass, RefusesInvalidSettings) {
     EXPECT_THROW(filtered({50, 50.01, 80, 1}, wave), InputError) << "longer than the record";
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::low_pass_test

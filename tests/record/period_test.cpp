@@ -9,11 +9,9 @@
 #include <gmock/gmock.h>
 #include <numbers>
 
-namespace graze::testing {
+namespace graze::testing::period_test {
 
 using ::testing::HasSubstr;
-
-namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
@@ -32,8 +30,6 @@ std::vector<double> crossings_of(const std::vector<Period>& periods) {
     times.push_back(periods.back().end);
     return times;
 }
-
-} // namespace
 
 TEST(Period, FindsTheCrossingsOfASine) {
     const double f = 6.1, start = 0.0137;
@@ -166,4 +162,4 @@ TEST(Section, ImagesOfASymmetricMotionLieOnTheMotion) {
     EXPECT_THROW(image_of({0, 0, 0, {1}, false}, {{1}, 0.5}), InputError);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::period_test

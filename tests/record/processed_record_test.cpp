@@ -8,9 +8,7 @@
 #include <gmock/gmock.h>
 #include <numbers>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::processed_record_test {
 
 /// x = t^2 and a wave with this many cycles per unit of time, for 10 units.
 std::unique_ptr<SampleSource> record(double turns = 1) {
@@ -20,8 +18,6 @@ std::unique_ptr<SampleSource> record(double turns = 1) {
     const auto wave = [turns](double t) { return std::sin(2 * std::numbers::pi * turns * t); };
     return std::make_unique<StoredSamples>(header, sampled(100, 1000, {square, wave}));
 }
-
-} // namespace
 
 TEST(ProcessedRecord, WithoutProcessingIsTheRecordItself) {
     ProcessedRecord processed(record(), {});
@@ -90,4 +86,4 @@ TEST(ProcessedRecord, RefusesUnknownChannels) {
     EXPECT_THAT(of_derivative, ::testing::HasSubstr("'y'"));
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::processed_record_test

@@ -7,12 +7,10 @@
 
 #include <cmath>
 
-namespace graze::testing {
+namespace graze::testing::record_file_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-namespace {
 
 constexpr std::size_t most = 1'000'000;
 
@@ -64,8 +62,6 @@ std::string written(const TemporaryFolder& folder, const std::string& name, std:
     writer.close();
     return folder / name;
 }
-
-} // namespace
 
 TEST(RecordFile, HeaderGivesNamesAndUnits) {
     const TemporaryFolder folder;
@@ -205,4 +201,4 @@ TEST(RecordFile, StoredSamplesAreChecked) {
     EXPECT_THROW(StoredSamples(example_header(), samples), InputError);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::record_file_test

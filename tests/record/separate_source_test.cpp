@@ -20,11 +20,9 @@
 #include <cstdlib>
 #include <thread>
 
-namespace graze::testing {
+namespace graze::testing::separate_source_test {
 
 using ::testing::HasSubstr;
-
-namespace {
 
 /// A source that runs a given function when it is read.
 class ActingSource : public SampleSource {
@@ -47,8 +45,6 @@ std::string refusal_of(const std::function<bool(Samples&)>& act, const ReadingLi
             ;
     });
 }
-
-} // namespace
 
 TEST(SeparateSource, PassesOnSamplesOfTheOtherProcess) {
     int part = 0;
@@ -194,4 +190,4 @@ TEST(SeparateSource, MutatedRecordsAreReadOrRefused) {
     RecordProperty("longest", std::to_string(longest));
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::separate_source_test

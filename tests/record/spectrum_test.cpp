@@ -10,9 +10,7 @@
 #include <numbers>
 #include <utility>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::spectrum_test {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
@@ -26,8 +24,6 @@ std::vector<double> waves(std::size_t count, double mean, const std::vector<std:
                                    0.4 * turns);
     return samples;
 }
-
-} // namespace
 
 TEST(Spectrum, FindsAmplitudesAndFrequenciesOfWaves) {
     const Spectrum parts = spectrum(waves(60, 5, {{3, 0.25}, {20, 2}}), 6.25);
@@ -139,4 +135,4 @@ TEST(Spectrum, RefusesSamplesThatAreNotEquidistant) {
     EXPECT_NEAR(even_sampling_frequency(jittered), 1e3, 0.1) << "by less than a twentieth of a step";
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::spectrum_test

@@ -8,14 +8,12 @@
 #include <algorithm>
 #include <tuple>
 
-namespace graze::testing {
+namespace graze::testing::text_table_test {
 
 using ::testing::DoubleEq;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-namespace {
 
 constexpr std::size_t most = 1'000'000;
 
@@ -67,8 +65,6 @@ std::string replaced(std::string text, const std::string& from, const std::strin
         text.replace(at, from.size(), to);
     return text;
 }
-
-} // namespace
 
 TEST(TextTable, ReadsMeasurementFilesOfLabview) {
     const ReadFile one =
@@ -309,4 +305,4 @@ TEST(TextTable, SkipsLinesAboveTheNames) {
     EXPECT_THAT(file.rows.values[0], ElementsAre(1, 2.5));
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::text_table_test

@@ -8,8 +8,7 @@
 
 #include <tuple>
 
-namespace graze {
-namespace {
+namespace graze::estimate_rows_test {
 
 RunRecord identified(const std::string& name) {
     RunRecord run;
@@ -70,5 +69,4 @@ TEST(EstimateRows, AreReadAsWritten) {
     EXPECT_TRUE(file.estimates("none").numbers.empty());
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::estimate_rows_test

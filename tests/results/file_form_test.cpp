@@ -13,8 +13,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace graze {
-namespace {
+namespace graze::file_form_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -177,5 +176,4 @@ TEST_F(FileForm, RefusesFilesThatLackRequiredColumns) {
     EXPECT_TRUE(file.point("s", 0)); // other runs are read
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::file_form_test

@@ -16,8 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::hdf5_test {
 
 /// A dataset of an HDF5 file.
 class Column {
@@ -270,5 +269,4 @@ TEST_F(Hdf5, FilesAreChunkedAndCompressed) {
     EXPECT_EQ(Column(many, "b/half_multipliers/real").type(), H5T_FLOAT);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::hdf5_test

@@ -14,8 +14,7 @@
 #include <random>
 #include <string>
 
-namespace graze {
-namespace {
+namespace graze::hostile_file_test {
 
 using namespace std::chrono_literals;
 
@@ -311,5 +310,4 @@ TEST_F(HostileFile, RemovalWhileWritingIsDetected) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::hostile_file_test

@@ -11,8 +11,7 @@
 #include <limits>
 #include <random>
 
-namespace graze {
-namespace {
+namespace graze::orbit_rows_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -179,5 +178,4 @@ TEST_F(OrbitRows, MissingMultipliersOfEarlierFilesAreInfinite) {
               (std::vector<std::complex<double>>{{infinity, 0.0}, {0.5, 0.0}}));
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::orbit_rows_test

@@ -9,13 +9,9 @@
 #include <span>
 #include <vector>
 
-namespace graze::testing {
-
-namespace {
+namespace graze::testing::regression_test {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-
-} // namespace
 
 TEST(RegressionTest, FindsALineThroughPointsOnIt) {
     const std::array x{-1.0, 0.0, 2.0, 5.0}, y{5.0, 3.0, -1.0, -7.0};
@@ -74,4 +70,4 @@ TEST(RegressionTest, NeedsTwoDifferentX) {
     EXPECT_THROW(regression(std::span(shorter).first(2), y), InputError);
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::regression_test

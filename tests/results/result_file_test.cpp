@@ -23,8 +23,7 @@
 #include <thread>
 #include <tuple>
 
-namespace graze {
-namespace {
+namespace graze::result_file_test {
 
 using ::testing::HasSubstr;
 
@@ -335,5 +334,4 @@ TEST_F(ResultFileTest, KilledWritersLeaveCompletePoints) {
     EXPECT_GT(before, 100u);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::result_file_test

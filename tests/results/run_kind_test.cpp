@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace graze {
-namespace {
+namespace graze::run_kind_test {
 
 TEST(RunKind, NamesMapBackToKinds) {
     for (std::size_t kind = 0; kind < kinds_of_runs().size(); ++kind) {
@@ -24,5 +23,4 @@ TEST(RunKind, AnOrbitIsNotFollowed) {
     EXPECT_TRUE(is_followed(RunKind::ladder));
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::run_kind_test

@@ -14,8 +14,7 @@
 #include <optional>
 #include <utility>
 
-namespace graze {
-namespace {
+namespace graze::stored_run_test {
 
 using ::testing::ElementsAre;
 using ::testing::Pair;
@@ -161,5 +160,4 @@ TEST_F(StoredRunTest, RunsOnlyOneQuery) {
     EXPECT_EQ(file_->runs().size(), 1u);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::stored_run_test

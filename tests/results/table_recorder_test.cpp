@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace graze {
-namespace {
+namespace graze::table_recorder_test {
 
 TEST(TableRecorder, RunEndsWhenTheTableIsFull) {
     const Model model = testing::ball_between_walls(0);
@@ -34,5 +33,4 @@ TEST(TableRecorder, RunEndsWhenTheTableIsFull) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::table_recorder_test

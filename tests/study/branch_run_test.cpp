@@ -12,8 +12,7 @@
 #include <fstream>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::branch_run_test {
 
 using ::testing::HasSubstr;
 
@@ -600,5 +599,4 @@ TEST_F(BranchRun, FollowsSymmetricOrbitsByTheirHalfWhereverTheyComeFrom) {
     EXPECT_TRUE(again.orbit("tabled", std::size_t{0})->point.solution.orbit.symmetry);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::branch_run_test

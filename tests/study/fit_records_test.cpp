@@ -9,8 +9,7 @@
 
 #include <cmath>
 
-namespace graze {
-namespace {
+namespace graze::fit_records_test {
 
 using ::testing::HasSubstr;
 
@@ -94,5 +93,4 @@ TEST(FitRecords, RefusesWhatIsNoRecord) {
     EXPECT_THAT(refusal(swing(), {hollow}), HasSubstr("x.csv: "));
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::fit_records_test

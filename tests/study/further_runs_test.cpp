@@ -7,8 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace graze {
-namespace {
+namespace graze::further_runs_test {
 
 using testing::bits_of;
 using ::testing::ElementsAre;
@@ -98,5 +97,4 @@ TEST_F(FurtherRuns, TellMistakes) {
     EXPECT_THAT(message_of([&] { copy_runs(file, copy, {"nowhere"}); }), HasSubstr("no run 'nowhere'"));
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::further_runs_test

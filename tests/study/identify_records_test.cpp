@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-namespace graze {
-namespace {
+namespace graze::identify_records_test {
 
 constexpr double gap = 4.8e-3, beta1 = 1.9e-5, beta2 = 1.6e-3, stiffness = 6000;
 
@@ -64,5 +63,4 @@ TEST(IdentifyRecords, FitsNeedAllRecordsAtOnce) {
     EXPECT_THROW(found_with(run), InputError);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::identify_records_test

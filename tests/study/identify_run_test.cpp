@@ -15,8 +15,7 @@
 
 #include <cmath>
 
-namespace graze {
-namespace {
+namespace graze::identify_run_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -382,5 +381,4 @@ TEST_F(IdentifyRunTest, RefusesInvalidStudies) {
                 HasSubstr("run 'b' has found no parameter of model"));
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::identify_run_test

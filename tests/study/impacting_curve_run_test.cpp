@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::impacting_curve_run_test {
 
 using ::testing::HasSubstr;
 
@@ -71,5 +70,4 @@ TEST_F(ImpactingCurveRun, TellsWhichCurvesBeginAtAPoint) {
     EXPECT_THAT(refusal(", onto = \"NS\""), HasSubstr("is no torus"));
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::impacting_curve_run_test

@@ -6,8 +6,7 @@
 
 #include <string>
 
-namespace graze {
-namespace {
+namespace graze::json_test {
 
 const Place place{"settings", 0, 0};
 
@@ -34,5 +33,4 @@ TEST(Json, RefusesTextsThatAreNoJson) {
     EXPECT_THROW(parse_json(std::string(1'000'000, '['), place), InputError);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::json_test

@@ -15,8 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::ladder_run_test {
 
 using ::testing::HasSubstr;
 
@@ -278,5 +277,4 @@ TEST_F(LadderRun, IsRefusedWithoutAGrazing) {
     EXPECT_THAT(with(start + "along = { sigma = [1.04, 3] }\nrungs = 5"), HasSubstr("no ladder begins there: bound"));
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::ladder_run_test

@@ -16,8 +16,7 @@
 #include <set>
 #include <utility>
 
-namespace graze {
-namespace {
+namespace graze::orbit_motion_test {
 
 /// Runs of orbits that lead back to no sweep, which would take long; of small models, or of large ones. Of the long
 /// curves only those of folds and flips.
@@ -150,5 +149,4 @@ TEST(OrbitMotion, OfASegmentWithoutEndIsInterrupted) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::orbit_motion_test

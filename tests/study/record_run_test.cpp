@@ -17,8 +17,7 @@
 #include <filesystem>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::record_run_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -470,5 +469,4 @@ TEST_F(RecordRunTest, RefusesInvalidBenches) {
     EXPECT_EQ(reports.front().outcome, RunOutcome::interrupted);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::record_run_test

@@ -9,8 +9,7 @@
 
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::run_length_test {
 
 using ::testing::HasSubstr;
 
@@ -42,5 +41,4 @@ TEST(RunLength, RefusesContradictions) {
     EXPECT_THAT(refusal({.time = 1, .phase = "theta"}), HasSubstr("no periods are counted"));
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::run_length_test

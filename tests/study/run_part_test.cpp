@@ -7,8 +7,7 @@
 
 #include <atomic>
 
-namespace graze {
-namespace {
+namespace graze::run_part_test {
 
 using ::testing::HasSubstr;
 
@@ -210,5 +209,4 @@ TEST_F(RunPartTest, AFailureElsewhereFailsTheRun) {
     EXPECT_EQ(file.find_run("sweep")->failure, "no worker; start one");
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::run_part_test

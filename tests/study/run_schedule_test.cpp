@@ -10,8 +10,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace graze {
-namespace {
+namespace graze::run_schedule_test {
 
 using ::testing::ElementsAre;
 
@@ -140,5 +139,4 @@ TEST(RunSchedule, AnErrorIsThrownAfterAllRunsHaveEnded) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::run_schedule_test

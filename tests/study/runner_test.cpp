@@ -8,8 +8,7 @@
 
 #include <atomic>
 
-namespace graze {
-namespace {
+namespace graze::runner_test {
 
 using ::testing::HasSubstr;
 
@@ -105,5 +104,4 @@ TEST_F(RunnerTest, TellsWhereARunCannotStart) {
     EXPECT_EQ(file.find_run(failed)->failure, "");
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::runner_test

@@ -15,8 +15,7 @@
 #include <thread>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::shared_model_test {
 
 /// Everything that is found, as bits.
 using Bits = std::vector<std::uint64_t>;
@@ -147,5 +146,4 @@ TEST(SharedModel, CopiesMayGrowWhileOthersCompile) {
         EXPECT_EQ(result.get(), alone);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::shared_model_test

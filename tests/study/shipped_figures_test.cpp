@@ -19,8 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::shipped_figures_test {
 
 /// Some runs of a shipped study, done.
 class ShippedResults : public testing::StudyResults {
@@ -631,5 +630,4 @@ TEST(ShippedFigures, MotionsOnBothSidesOfTheOnsetAt7HzAreAsPublished) {
     EXPECT_GT(greatest - least, 0.01);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::shipped_figures_test

@@ -10,8 +10,7 @@
 #include <set>
 #include <thread>
 
-namespace graze {
-namespace {
+namespace graze::side_by_side_test {
 
 constexpr const char* text = R"(
 name = "s"
@@ -146,5 +145,4 @@ TEST_F(SideBySide, AnExceptionOfTheCallerEndsAllRuns) {
     EXPECT_EQ(bits_of(file), bits_of(other));
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::side_by_side_test

@@ -10,8 +10,7 @@
 #include <algorithm>
 #include <filesystem>
 
-namespace graze {
-namespace {
+namespace graze::stored_study_test {
 
 using ::testing::HasSubstr;
 
@@ -183,5 +182,4 @@ TEST_F(StoredStudyTest, TellsWhatIsWrongWithSettings) {
     EXPECT_THAT(refusal_of_stored(deep), HasSubstr("nested"));
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::stored_study_test

@@ -11,8 +11,7 @@
 
 #include <set>
 
-namespace graze {
-namespace {
+namespace graze::study_keys_test {
 
 using ::testing::Contains;
 using ::testing::Field;
@@ -117,5 +116,4 @@ TEST(StudySchema, HasTheKeysOfEveryKind) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::study_keys_test

@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::study_mistakes_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -188,5 +187,4 @@ along = { omega = [2, 3] }
     EXPECT_THAT(refusal("{ zzzzzzzz = \"\" }\n"), HasSubstr("known are: a, lowest, omega, speed, x"));
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::study_mistakes_test

@@ -4,13 +4,11 @@
 
 #include <gmock/gmock.h>
 
-namespace graze::testing {
+namespace graze::testing::study_picture_reader_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Pair;
-
-namespace {
 
 StudyPicture picture_with(const std::string& keys) {
     return parse_study("name = \"s\"\nmodel = \"bouncing-ball\"\n[runs.r]\nkind = \"simulate\"\ntime = 1\n"
@@ -29,8 +27,6 @@ std::string problem_of(const std::string& keys) {
     }
     return "";
 }
-
-} // namespace
 
 TEST(PictureStyle, HasTheSizeAndFontOfTheStudy) {
     const StudyPicture usual = picture_with("");
@@ -73,4 +69,4 @@ TEST(PictureStyle, IsPartOfThePicturesSettings) {
         EXPECT_NE(settings_of(picture_with(keys)), usual) << keys;
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::study_picture_reader_test

@@ -5,8 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace graze {
-namespace {
+namespace graze::study_set_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -83,5 +82,4 @@ TEST(StudySet, IsStoredWithTheResults) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::study_set_test

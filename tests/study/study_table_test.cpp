@@ -13,8 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::study_table_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -209,5 +208,4 @@ TEST(StudyTable, MistakesAreReportedWithPlaceAndRemedy) {
     EXPECT_EQ(refusal("[tables.t]\nrun = \"motion\"\ncolumns = [\"label\", \"x\", \"is_low = x <= -0.1\"]"), "");
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::study_table_test

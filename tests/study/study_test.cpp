@@ -12,8 +12,7 @@
 
 #include <string>
 
-namespace graze {
-namespace {
+namespace graze::study_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -350,7 +349,6 @@ TEST(Study, MistakesAreReportedWithPlaceAndRemedy) {
         EXPECT_THAT(refusal(wrong.text), HasSubstr(wrong.message)) << wrong.text;
 }
 
-} // namespace
 TEST(StudyTest, InitialStatesMayFollowFromWhatVaries) {
     const std::string begin = "name = \"s\"\n[runs.a]\nmodel = \"impact-oscillator\"\nkind = \"basin\"\n"
                               "vary = { x = [-1, -0.5], omega = [2, 3] }\n";
@@ -370,4 +368,4 @@ TEST(StudyTest, InitialStatesMayFollowFromWhatVaries) {
     EXPECT_THROW(parse_study(begin + "from = { x = \"omega\" }\n", "s.toml"), InputError);
 }
 
-} // namespace graze
+} // namespace graze::study_test

@@ -11,8 +11,7 @@
 #include <cmath>
 #include <map>
 
-namespace graze {
-namespace {
+namespace graze::testbed_experiment_test {
 
 /// Of the benches of the study: each run of kind record has those that matter to it.
 std::map<std::string, double> hidden_of(const Study& study) {
@@ -92,5 +91,4 @@ TEST(TestbedExperimentSlow, IntervalsHoldTheHiddenValuesWhateverTheNoise) {
     EXPECT_LE(inside, 140);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::testbed_experiment_test

@@ -10,8 +10,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace graze {
-namespace {
+namespace graze::yield_part_test {
 
 using namespace graze::testing;
 using ::testing::HasSubstr;
@@ -195,5 +194,4 @@ TEST_F(YieldPartTest, RefusesWhatIsNoSolver) {
     EXPECT_THAT(message_of([&] { device_solver_of(older); }), HasSubstr("part of a yield of graze 9"));
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::yield_part_test

@@ -4,8 +4,7 @@
 
 #include <functional>
 
-namespace graze {
-namespace {
+namespace graze::approach_test {
 
 struct Bifurcation {
     const char* name;
@@ -62,5 +61,4 @@ TEST(Approach, NoOrbitIsFoundBeyondAFold) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::approach_test

@@ -10,8 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::attractor_evidence_test {
 
 /// Returns the contacts of a motion in each of several periods.
 std::vector<std::size_t> contacts_of(const Model& model, const std::vector<double>& state, std::size_t periods,
@@ -201,5 +200,4 @@ TEST(AttractorEvidence, LongPeriodsBetweenTwoRestsAreFound) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::attractor_evidence_test

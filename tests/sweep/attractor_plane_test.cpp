@@ -8,8 +8,7 @@
 #include <numbers>
 #include <string>
 
-namespace graze {
-namespace {
+namespace graze::attractor_plane_test {
 
 constexpr double golden = 1.618033988749895;
 
@@ -158,5 +157,4 @@ TEST(AttractorPlane, MotionsThatSlideBackAndForthAnywhereArePeriodic) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::attractor_plane_test

@@ -8,8 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::attractor_search_test {
 
 using std::numbers::pi;
 
@@ -251,5 +250,4 @@ TEST(AttractorSearch, ZeroMultipliersAreExactlyZero) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::attractor_search_test

@@ -6,8 +6,7 @@
 
 #include <random>
 
-namespace graze {
-namespace {
+namespace graze::equilibrium_test {
 
 TEST(Equilibrium, MotionsThatComeToRestAreLabelledInAnyUnits) {
     // Damping ratios of foci, of the critical case and of nodes; the exponent follows in closed form.
@@ -216,5 +215,4 @@ TEST(Equilibrium, SlipsThatVanishInTheLimitAreNoOrbit) {
     EXPECT_NE(orbit.signature, "");
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::equilibrium_test

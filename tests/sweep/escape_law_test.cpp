@@ -8,8 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::escape_law_test {
 
 /// Pseudorandom numbers between 0 and 1.
 class Draws {
@@ -94,5 +93,4 @@ TEST(EscapeLaw, TentMapIsLeftAtTheRateOfItsClosedForm) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::escape_law_test

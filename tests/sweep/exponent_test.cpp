@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace graze {
-namespace {
+namespace graze::exponent_test {
 
 TEST(Exponent, KnownValuesLieWithinTheStatedError) {
     // Families with known exponents, each with another kind of convergence.
@@ -58,5 +57,4 @@ TEST(Exponent, AllCyclesAfterTheTransientAreUsed) {
     EXPECT_LT(errors[2], 0.005);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::exponent_test

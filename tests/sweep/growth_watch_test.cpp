@@ -4,8 +4,7 @@
 
 #include <random>
 
-namespace graze {
-namespace {
+namespace graze::growth_watch_test {
 
 TEST(GrowthWatch, LinearOscillatorsThatGainEnergyAreUnboundedInAnyUnits) {
     std::mt19937 random(2);
@@ -85,5 +84,4 @@ TEST(GrowthWatch, EventsAheadMayBeAnyNumberOfDecadesAway) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::growth_watch_test

@@ -12,8 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::motion_derivatives_test {
 
 /// One motion that is observed by MotionDerivatives and also propagates derivatives by all states itself.
 class Followed : public Observer {
@@ -192,5 +191,4 @@ TEST(MotionDerivatives, DoNotExistAcrossGrazingAndAccumulations) {
     EXPECT_TRUE(bouncing.derivatives.broken());
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::motion_derivatives_test

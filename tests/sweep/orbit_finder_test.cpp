@@ -8,8 +8,7 @@
 #include <cmath>
 #include <complex>
 
-namespace graze {
-namespace {
+namespace graze::orbit_finder_test {
 
 /// An elastic ball, from rest at x = 1 with g = 2: it returns after 2 units of time.
 Model elastic_ball(const std::string& state, const std::string& rate) {
@@ -71,5 +70,4 @@ TEST(OrbitFinder, ConstantStatesHaveNoMultiplier) {
     expect_multipliers(settle(testing::ticking("x = 0.25\nz = 0", "x = 0, z = 0", "z = \"0.5*z + x\"")), {0.5});
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::orbit_finder_test

@@ -4,8 +4,7 @@
 
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::quasi_periodic_test {
 
 /// Returns numbers between 0 and 1 that are evenly spread.
 double even_number(int k) {
@@ -87,5 +86,4 @@ TEST(QuasiPeriodic, GrowingMotionsAreNotLabelled) {
     EXPECT_NE(settle(iterated("-1.05*z", 1)).label, Label::quasi_periodic);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::quasi_periodic_test

@@ -6,8 +6,7 @@
 
 #include <cmath>
 
-namespace graze {
-namespace {
+namespace graze::transient_search_test {
 
 /// x'' + x = 0 from x = 0.5 at rest, and a wall at x = `wall`.
 Model before_wall(double wall, double time = 1) {
@@ -61,5 +60,4 @@ TEST(TransientSearchSlow, WaitsForTheRequestedTime) {
     EXPECT_EQ(result.time, 4e6);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::transient_search_test

@@ -9,8 +9,7 @@
 #include <cmath>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::unstable_orbits_test {
 
 /// The logistic map at r, whose fixed point 1 - 1/r has the multiplier 2 - r.
 struct Logistic {
@@ -97,5 +96,4 @@ TEST(UnstableOrbits, DoNotExplainAStableOrbitNearby) {
     EXPECT_FALSE(none.explain(map.motion, 2, 0));
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::unstable_orbits_test

@@ -8,8 +8,7 @@
 
 #include <cmath>
 
-namespace graze {
-namespace {
+namespace graze::expression_test {
 
 class ExpressionTest : public ::testing::Test {
 protected:
@@ -186,5 +185,4 @@ TEST_F(ExpressionTest, SimplifiedEqualsUnsimplifiedUpToRoundOff) {
     EXPECT_GT(compared, 20000u);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::expression_test

@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace graze {
-namespace {
+namespace graze::function_test {
 
 class FunctionTest : public ::testing::Test {
 protected:
@@ -155,5 +154,4 @@ TEST_F(FunctionTest, ConstantValueNeedsNoSymbols) {
     EXPECT_THROW(constant_value(log(x - 2)), InputError);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::function_test

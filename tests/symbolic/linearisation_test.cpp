@@ -13,8 +13,7 @@
 #include <random>
 #include <string>
 
-namespace graze {
-namespace {
+namespace graze::linearisation_test {
 
 using testing::DenseDerivatives;
 using testing::multiplied_out;
@@ -473,5 +472,4 @@ TEST(RandomLinearisation, IsFiniteForTreesWhereTheJacobianIs) {
     EXPECT_GT(compared, 900);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::linearisation_test

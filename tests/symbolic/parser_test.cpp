@@ -8,8 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::parser_test {
 
 class ParserTest : public ::testing::Test {
 protected:
@@ -287,5 +286,4 @@ TEST(Names, OnlyIdentifiersThatAreNotReservedAreValid) {
     EXPECT_FALSE(is_reserved_name("2x"));
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::parser_test

@@ -6,8 +6,7 @@
 
 #include <string>
 
-namespace graze {
-namespace {
+namespace graze::symbol_index_test {
 
 TEST(SymbolIndex, FindsEachSymbolAtItsPosition) {
     const auto graph = Graph::create();
@@ -40,5 +39,4 @@ TEST(SymbolIndex, RefusesRepeatedSymbolsAndOtherExpressions) {
     EXPECT_THROW(SymbolIndex(std::vector{Expression()}), InputError);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::symbol_index_test

@@ -11,8 +11,7 @@
 #include <limits>
 #include <tuple>
 
-namespace graze {
-namespace {
+namespace graze::transform_test {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
@@ -331,5 +330,4 @@ TEST_F(TransformTest, SmallExpressionsOfLargeGraphsTakeSmallWork) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::transform_test

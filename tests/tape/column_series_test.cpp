@@ -11,8 +11,7 @@
 
 #include <limits>
 
-namespace graze {
-namespace {
+namespace graze::column_series_test {
 
 using testing::eps;
 using testing::Problem;
@@ -195,5 +194,4 @@ TEST(ColumnSeries, RefuseWrongSizesAndEntries) {
     EXPECT_THROW(series.compute(std::vector<double>(3)), InputError);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::column_series_test

@@ -10,8 +10,7 @@
 #include <numbers>
 #include <utility>
 
-namespace graze {
-namespace {
+namespace graze::jet_test {
 
 using testing::eps;
 using testing::Problem;
@@ -387,5 +386,4 @@ TEST(Jet, BestInstructionSetIsSupported) {
     EXPECT_EQ(lanes_of(LaneKind::single, best_instruction_set()), 1);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::jet_test

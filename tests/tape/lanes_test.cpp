@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace graze {
-namespace {
+namespace graze::lanes_test {
 
 using testing::eps;
 using testing::Problem;
@@ -68,5 +67,4 @@ TEST(Lanes, InstructionSetsAgree) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::lanes_test

@@ -8,8 +8,7 @@
 #include <numbers>
 #include <random>
 
-namespace graze {
-namespace {
+namespace graze::sine_and_cosine_test {
 
 using testing::Problem;
 
@@ -92,5 +91,4 @@ TEST(SineAndCosine, AreNaNForNonFiniteArguments) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::sine_and_cosine_test

@@ -12,8 +12,7 @@
 #include <cmath>
 #include <memory>
 
-namespace graze {
-namespace {
+namespace graze::tangent_series_test {
 
 using testing::eps;
 using testing::Problem;
@@ -326,5 +325,4 @@ TEST(TangentSeries, MisuseThrows) {
     EXPECT_NO_THROW(jet->compute_deferred({&empty, 1}));
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::tangent_series_test

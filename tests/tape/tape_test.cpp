@@ -6,8 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace graze {
-namespace {
+namespace graze::tape_test {
 
 using testing::Problem;
 
@@ -138,5 +137,4 @@ TEST(Tape, RefusesForeignSymbols) {
     EXPECT_THAT(testing::message_of([&] { p.tape(); }), ::testing::HasSubstr("stranger"));
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::tape_test

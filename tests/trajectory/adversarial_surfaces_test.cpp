@@ -7,7 +7,7 @@
 using namespace graze;
 using namespace graze::testing;
 
-namespace {
+namespace adversarial_surfaces_test {
 
 /// Straight flight past surfaces whose functions vary much faster than the motion; each mode has one surface.
 constexpr const char* straight_flight = R"toml(
@@ -55,8 +55,6 @@ struct Flight {
         }
     }
 };
-
-} // namespace
 
 TEST(Adversarial, FastVaryingSurfacesAreMet) {
     Random random(5);
@@ -164,8 +162,6 @@ TEST(Adversarial, GrazesOfTheBallAndShakerAreMet) {
     tally.expect_clean(10000);
 }
 
-namespace {
-
 /// Two stops so close together that round-off decides which is met first.
 constexpr const char* two_barriers = R"toml(
 name = "two-barriers"
@@ -178,8 +174,6 @@ transitions = [
   { mode = "flight", event = "second", next = "end" },
 ]
 )toml";
-
-} // namespace
 
 TEST(Adversarial, TheFirstOfSeveralBarriersIsMetFirst) {
     Random random(7);
@@ -221,3 +215,5 @@ TEST(Adversarial, TheFirstOfSeveralBarriersIsMetFirst) {
     EXPECT_EQ(late, 0);
     EXPECT_EQ(wrong, 0);
 }
+
+} // namespace adversarial_surfaces_test

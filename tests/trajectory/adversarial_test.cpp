@@ -5,7 +5,7 @@
 using namespace graze;
 using namespace graze::testing;
 
-namespace {
+namespace adversarial_test {
 
 /// Returns the maxima of the height above the surface in (0, end) of a linear oscillator.
 /// @param spacing times the time scale of the motion: less than the distance of maxima
@@ -69,8 +69,6 @@ void judge(Tally& tally, Bench& bench, Witness& witness, const OscillatorCase& o
     };
     tally.judge(witness, outcome, peaks, depth, band, 4 * epsilon * end, one.label(bench.tolerance(), end));
 }
-
-} // namespace
 
 TEST(Adversarial, GrazesOfTheLinearImpactOscillatorAreMet) {
     Random random(1);
@@ -205,3 +203,5 @@ TEST(Adversarial, SeveralGrazesInOneArcAreMet) {
     }
     tally.expect_clean(15000);
 }
+
+} // namespace adversarial_test

@@ -8,7 +8,7 @@
 using namespace graze;
 using namespace graze::testing;
 
-namespace {
+namespace branch_point_test {
 
 /// A body between two soft walls, free from 0 to `width`. The force is stiffness times the power p of the indentation.
 /// @param loss function of the event that ends a contact with the right wall
@@ -40,8 +40,6 @@ double contact_time(double stiffness, double p, double v) {
     const double deepest = std::pow((p + 1) * v * v / (2 * stiffness), 1 / (p + 1)), a = 1 / (p + 1);
     return 2 * deepest / v * a * std::sqrt(3.14159265358979323846) * std::exp(std::lgamma(a) - std::lgamma(a + 0.5));
 }
-
-} // namespace
 
 TEST(BranchPoint, HertzContactsBeginAndEndOnTime) {
     Random random(3);
@@ -91,3 +89,5 @@ TEST(BranchPoint, DerivativesPassHertzContacts) {
     EXPECT_NEAR(trajectory.state()[0], position(0.6), 1e-11);
     EXPECT_NEAR(trajectory.derivative(0, 0), (position(0.6 + 1e-5) - position(0.6 - 1e-5)) / 2e-5, 1e-8);
 }
+
+} // namespace branch_point_test

@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace graze {
-namespace {
+namespace graze::chain_test {
 
 constexpr double tolerance = 1e-12;
 
@@ -120,5 +119,4 @@ TEST(Chains, DerivativesThroughImpactsAgreeWithDifferences) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::chain_test

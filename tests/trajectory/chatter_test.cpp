@@ -10,7 +10,7 @@
 using namespace graze;
 using namespace graze::testing;
 
-namespace {
+namespace chatter_test {
 
 using Real = long double;
 
@@ -53,10 +53,6 @@ Model ball_on_floor(double e, double g = 9.81) {
     return shipped_with("bouncing-ball", {{"e", e}, {"a", 0}, {"g", g}});
 }
 
-} // namespace
-
-namespace {
-
 /// Heights above a floor with x'' = -(g - b t), in closed form between impacts.
 struct FadingGravity {
     Real g, b, e;
@@ -92,8 +88,6 @@ transitions = [
   { mode = "rest", event = "release", jump = "land", next = "end" },
 ]
 )toml";
-
-} // namespace
 
 TEST(Chatter, BallsComeToRestAtTheClosedFormTime) {
     for (const double e : {0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99})
@@ -361,3 +355,5 @@ TEST(Chatter, ImpactsOnAVibratingTableEqualAnIndependentSimulation) {
     EXPECT_GT(compared, 2000);
     EXPECT_GT(rests, 300);
 }
+
+} // namespace chatter_test

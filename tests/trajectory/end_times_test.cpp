@@ -8,7 +8,7 @@
 using namespace graze;
 using namespace graze::testing;
 
-namespace {
+namespace end_times_test {
 
 struct Family {
     const char* rate;
@@ -30,8 +30,6 @@ constexpr Family families[] = {
     {"k*x^2", 2, 0, 0, false},
     {"k*x^p", 0, 1.2, 4, false},
 };
-
-} // namespace
 
 TEST(EndTimes, OfRootsPowersAndPolesAreExact) {
     Random random(71);
@@ -76,3 +74,5 @@ TEST(EndTimes, OfSnapThroughAreExact) {
         EXPECT_NEAR(outcome.time, time, (100 * tolerance + 1e-13) * time) << length << " " << tolerance;
     }
 }
+
+} // namespace end_times_test

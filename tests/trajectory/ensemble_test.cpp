@@ -16,7 +16,7 @@
 using namespace graze;
 using namespace graze::testing;
 
-namespace {
+namespace ensemble_test {
 
 /// Records all observer calls, as bits.
 struct Transcript : Observer {
@@ -140,8 +140,6 @@ std::vector<Probe> all_probes(const Model& model) {
         probes.push_back({"extremum", Probe::Kind::extremum, model.quantities[0].value, Direction::both, 0, {}});
     return probes;
 }
-
-} // namespace
 
 TEST(Ensemble, ShippedModelsInLanesEqualSeparateRuns) {
     Random random(21);
@@ -278,3 +276,5 @@ TEST(Ensemble, ThreadsCanShareASimulation) {
         }
     }
 }
+
+} // namespace ensemble_test

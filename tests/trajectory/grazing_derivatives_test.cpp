@@ -9,7 +9,7 @@
 using namespace graze;
 using namespace graze::testing;
 
-namespace {
+namespace grazing_derivatives_test {
 
 /// x'' = g past a surface at `surface`, in arbitrary units.
 constexpr const char* parabola = R"toml(
@@ -36,8 +36,6 @@ bool valid_after(const Model& model, std::vector<double> state, double end, doub
         EXPECT_TRUE(std::isfinite(derivative));
     return experiment.trajectory.tangents_valid();
 }
-
-} // namespace
 
 TEST(GrazingDerivatives, DoNotExistAtAnExactGrazing) {
     Random random(61);
@@ -115,3 +113,5 @@ TEST(Touches, AreReportedUpToTheDocumentedDistance) {
     EXPECT_GT(touched, 500);
     EXPECT_GT(passed, 500);
 }
+
+} // namespace grazing_derivatives_test

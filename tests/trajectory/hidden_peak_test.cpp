@@ -10,7 +10,7 @@
 using namespace graze;
 using namespace graze::testing;
 
-namespace {
+namespace hidden_peak_test {
 
 using std::numbers::pi;
 
@@ -52,8 +52,6 @@ Peak draw_peak(Random& random, int kind) {
                 std::sqrt(-std::expm1(-log_half)) / 2, centre, reach};
     }
 }
-
-} // namespace
 
 TEST(HiddenPeaks, OfHighPowersAreIntegrated) {
     Random random(71);
@@ -135,3 +133,5 @@ TEST(HiddenPeaks, KinksOfSectionsArePassed) {
     }
     EXPECT_GT(passed, 90);
 }
+
+} // namespace hidden_peak_test

@@ -9,7 +9,7 @@
 using namespace graze;
 using namespace graze::testing;
 
-namespace {
+namespace period_end_test {
 
 const char* const clock_text = R"(
 name = "clock"
@@ -20,8 +20,6 @@ jumps.count.turns = "turns + 1"
 modes.running = { rates = { hand = "rate", turns = "0" }, watch = ["noon"] }
 transitions = [{ mode = "running", event = "noon", jump = "count", next = "running" }]
 )";
-
-} // namespace
 
 // Round-off decides whether the intended end of a period comes just before or just after it. The count must be that of
 // whole periods in either case.
@@ -48,3 +46,5 @@ TEST(PeriodEnd, IsCountedOnceWhereATrajectoryEndsThereAndContinues) {
         EXPECT_NEAR(trajectory.state()[0], turn / 2, 1e-12 * turn);
     }
 }
+
+} // namespace period_end_test

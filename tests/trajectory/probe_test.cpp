@@ -5,8 +5,7 @@
 
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::probe_test {
 
 using namespace graze::testing;
 using std::numbers::pi;
@@ -369,5 +368,4 @@ TEST(CyclicStates, StayWithinTheirPeriodsForAMillionPeriods) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::probe_test

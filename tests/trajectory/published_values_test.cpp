@@ -14,8 +14,7 @@
 #include <numbers>
 #include <set>
 
-namespace graze {
-namespace {
+namespace graze::published_values_test {
 
 using namespace graze::testing;
 using std::numbers::pi;
@@ -604,5 +603,4 @@ TEST(Microbeam, HigherModesInContactWithAStiffStopHaveThePublishedSizes) {
     EXPECT_NEAR(first_amplitude[1] / first_amplitude[9], 1, 0.05);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::published_values_test

@@ -7,8 +7,7 @@
 #include <limits>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::recorder_test {
 
 /// Runs the MEMS switch of chapter 6 with an observer until snap-through.
 void run_switch(Observer& observer, bool minima = false) {
@@ -129,5 +128,4 @@ TEST(ArcMinima, CoverTheTrajectoryWithoutGaps) {
     EXPECT_NEAR(end, 27.31773570163, 1e-6);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::recorder_test

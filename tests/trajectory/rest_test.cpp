@@ -12,7 +12,7 @@
 using namespace graze;
 using namespace graze::testing;
 
-namespace {
+namespace rest_test {
 
 /// The same gap in several equivalent forms, some with cancelling terms.
 constexpr std::array gaps{
@@ -75,8 +75,6 @@ double rounds(const Model& model, double count) {
     return count * 2 * std::numbers::pi / model.parameter_values()[3];
 }
 
-} // namespace
-
 TEST(Rest, BallsAtRestOnATableNeverFallThroughIt) {
     Random random(41);
     int left = 0;
@@ -128,3 +126,5 @@ TEST(Rest, AModeThatLeadsBeyondTheSurfaceIsDetected) {
     Experiment experiment(model);
     EXPECT_EQ(experiment.run_from({0.03, 0, 0}, 0, 20).ending, Ending::inadmissible);
 }
+
+} // namespace rest_test

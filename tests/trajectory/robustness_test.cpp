@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::robustness_test {
 
 using namespace graze::testing;
 
@@ -125,5 +124,4 @@ TEST(StandStill, CrossingsThatAccumulateBetweenTwoModesComeToRest) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::robustness_test

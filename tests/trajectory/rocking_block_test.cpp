@@ -8,7 +8,7 @@
 using namespace graze;
 using namespace graze::testing;
 
-namespace {
+namespace rocking_block_test {
 
 const char* const block = R"toml(
 parameters = { r = 0.35, p = 1, a = 1 }
@@ -35,8 +35,6 @@ double time_of_rest(double tilt, double r, double p) {
     return time;
 }
 
-} // namespace
-
 TEST(RockingBlock, ComesToRestInAnyUnits) {
     Random random(81);
     Model model = model_from(block);
@@ -58,3 +56,5 @@ TEST(RockingBlock, ComesToRestInAnyUnits) {
         EXPECT_NEAR(contacts.back().contact.time, rest, 1e-6 * rest) << fmt::format("{} {} {} {}", r, p, a, tilt);
     }
 }
+
+} // namespace rocking_block_test

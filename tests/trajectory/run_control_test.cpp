@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace graze {
-namespace {
+namespace graze::run_control_test {
 
 struct Seen : Observer {
     void contact(const Contact& contact) override { times.push_back(contact.time); }
@@ -52,5 +51,4 @@ TEST(RunControl, EndsOnRequest) {
     EXPECT_EQ(contacts_of(first, {}, control, seen).size(), 4U);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::run_control_test

@@ -8,7 +8,7 @@
 using namespace graze;
 using namespace graze::testing;
 
-namespace {
+namespace shared_surface_test {
 
 /// u = +1 or -1 is the state of the relay; `force` drives it.
 Model relay(const std::string& kind, const std::string& states, const std::string& plus, const std::string& minus) {
@@ -21,8 +21,6 @@ Model relay(const std::string& kind, const std::string& states, const std::strin
                                   states, kind, kind, plus, minus) +
                       transition("plus", "off", "minus") + transition("minus", "on", "plus"));
 }
-
-} // namespace
 
 TEST(SharedSurface, AnIdealRelayWithoutAdmissibleModeMakesNoProgress) {
     Random random(51);
@@ -155,8 +153,6 @@ TEST(SharedSurface, PressedAgainstTwoBarriersItSticksOnce) {
     }
 }
 
-namespace {
-
 /// A converter with peak-current control: the current i rises in `on` until it reaches its peak, and falls in `off`
 /// until the clock c ticks. Optionally, separate modes follow the first tick.
 Model converter(double rise, double fall, bool ends_at_second_tick) {
@@ -176,8 +172,6 @@ Model converter(double rise, double fall, bool ends_at_second_tick) {
 
 const std::vector<std::pair<double, double>> peaks_at_ticks{{0.5, 0.5}, {0.25, 0.75}, {0.125, 0.875},  {0.3, 0.7},
                                                             {0.1, 0.9}, {0.7, 0.3},   {0.0625, 0.9375}};
-
-} // namespace
 
 TEST(SharedSurface, AnEventThatWasResetIsDueOnlyAtTheNextZero) {
     // The peak and the tick coincide at time 1. The tick is handled once, the peak in both modes; the clock then runs
@@ -226,3 +220,5 @@ TEST(SharedSurface, AnEventMovedOffItsSurfaceByAJumpIsNotDueAfterAThirdEvent) {
     EXPECT_NEAR(outcome.time, 1.75, 1e-14);
     EXPECT_EQ(experiment.recorder.contacts().size(), 3U);
 }
+
+} // namespace shared_surface_test

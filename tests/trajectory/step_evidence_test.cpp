@@ -10,7 +10,7 @@
 using namespace graze;
 using namespace graze::testing;
 
-namespace {
+namespace step_evidence_test {
 
 /// Allowed errors: some dozen steps, each with a fraction of the tolerance, and their round-off.
 constexpr double most_tolerances = 20;
@@ -171,8 +171,6 @@ void judge_all_falls(int cases_each) {
     EXPECT_EQ(counts.ended, 0) << counts.first;
 }
 
-} // namespace
-
 TEST(StepEvidence, StatesAgreeWithClosedForms) {
     judge_all_states(8);
 }
@@ -283,3 +281,5 @@ TEST(StepEvidence, DerivativesOfSteepMotionsAreAccurate) {
         }
     }
 }
+
+} // namespace step_evidence_test

@@ -8,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace graze {
-namespace {
+namespace graze::stop_test {
 
 /// Stops at passages of the first probe, on request.
 struct Stopper : Observer {
@@ -50,5 +49,4 @@ TEST(Stop, AtAPassageWhereAClockSwitchesLosesNothing) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::stop_test

@@ -10,7 +10,7 @@
 using namespace graze;
 using namespace graze::testing;
 
-namespace {
+namespace tangents_test {
 
 using Real = long double;
 
@@ -91,8 +91,6 @@ std::vector<Real> impact_oscillator(const OscillatorInput& in, Real end, int* im
             ++*impacts;
     }
 }
-
-} // namespace
 
 TEST(Tangents, OfTheLinearImpactOscillatorAreExact) {
     Random random(31);
@@ -204,8 +202,6 @@ TEST(Tangents, PropagateTimeShiftsAlongAutonomousFlows) {
     }
 }
 
-namespace {
-
 /// The final state of a run, and its sequence of contacts.
 struct End {
     std::vector<double> state;
@@ -225,8 +221,6 @@ End end_of(const Simulation& simulation, JetSet& jets, const std::vector<double>
             end.transitions.push_back(record.contact.transition);
     return end;
 }
-
-} // namespace
 
 TEST(Tangents, OfShippedModelsAgreeWithDifferences) {
     struct Case {
@@ -385,3 +379,5 @@ TEST(Tangents, GiveTheMultipliersOfTheImpactingPeriodThreeOrbit) {
         EXPECT_LT(characteristic(multiplier - 5e-5) * characteristic(multiplier + 5e-5), 0) << multiplier;
     EXPECT_NEAR(m[0][0] + m[1][1] + m[2][2], 0.6128 + 0.1126, 1e-3);
 }
+
+} // namespace tangents_test

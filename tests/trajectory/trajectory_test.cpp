@@ -9,8 +9,7 @@
 #include <cstring>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::trajectory_test {
 
 using namespace graze::testing;
 using std::numbers::pi;
@@ -605,5 +604,4 @@ TEST(Singular, FastMotionAtALateTimeIsNotSingular) {
     EXPECT_EQ(trajectory.outcome().ending, Ending::end_time);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::trajectory_test

@@ -10,7 +10,7 @@
 using namespace graze;
 using namespace graze::testing;
 
-namespace {
+namespace unseen_models_test {
 
 std::vector<double> times_of(const Experiment& experiment, ContactKind kind) {
     std::vector<double> times;
@@ -32,8 +32,6 @@ transitions = [{{ mode = "free", event = "wall", jump = "impact", next = "free" 
 )toml",
                                   length, 1 / time));
 }
-
-} // namespace
 
 TEST(UnseenModels, UnitsHaveNoEffect) {
     for (const double tolerance : {1e-8, 1e-12}) {
@@ -158,3 +156,5 @@ s = { initial = 0, drifting = true }
     const double angle = 0.5 + 0.7 * 12345.678;
     EXPECT_NEAR(experiment.state()[2], 1234.5678 + (std::sin(angle) - std::sin(0.5)) / 0.7, 1e-9);
 }
+
+} // namespace unseen_models_test

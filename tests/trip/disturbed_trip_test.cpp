@@ -12,8 +12,7 @@
 #include <numbers>
 #include <random>
 
-namespace graze {
-namespace {
+namespace graze::disturbed_trip_test {
 
 using namespace graze::testing;
 using std::numbers::pi;
@@ -312,5 +311,4 @@ TEST(DisturbedTrip, RampOfTheSwitchThroughItsFoldHasTheTwoThirdsDelay) {
     }
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::disturbed_trip_test

@@ -9,8 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace graze {
-namespace {
+namespace graze::fold_passage_test {
 
 using namespace graze::testing;
 using std::numbers::pi;
@@ -168,5 +167,4 @@ TEST(FoldPassage, PointsWithoutPassageAreRefused) {
     expect_refusal([&] { fold_passage(System(one.model), branch.special.back(), one.fold.parameter); }, "is no fold");
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::fold_passage_test

@@ -11,8 +11,7 @@
 
 #include <cmath>
 
-namespace graze {
-namespace {
+namespace graze::loss_point_test {
 
 using namespace graze::testing;
 
@@ -83,5 +82,4 @@ TEST(LossPoint, TouchStartsTripsOfAllKinds) {
     EXPECT_LT(beginning_of_ramp(lost, 1e-6), 1);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::loss_point_test

@@ -7,8 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace graze {
-namespace {
+namespace graze::trip_request_test {
 
 using namespace graze::testing;
 
@@ -61,5 +60,4 @@ TEST(TripRequest, UnfinishedTripsAreTold) {
     EXPECT_TRUE(unfinished_trips(overshoot_trips(one.lost, usual_end(one.lost), {1e-6}), "wait").empty());
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::trip_request_test

@@ -20,8 +20,7 @@
 #include <numbers>
 #include <random>
 
-namespace graze {
-namespace {
+namespace graze::trip_time_test {
 
 using namespace graze::testing;
 
@@ -460,5 +459,4 @@ TEST(TripTime, SlidingOnABeltGrowsLogarithmically) {
     EXPECT_GE(folds, 1U);
 }
 
-} // namespace
-} // namespace graze
+} // namespace graze::trip_time_test
