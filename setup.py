@@ -28,7 +28,8 @@ class CMakeBuild(build_ext):
         build = pathlib.Path(self.build_temp).resolve()
         build.mkdir(parents=True, exist_ok=True)
         settings = ["-DCMAKE_BUILD_TYPE=Release", "-DGRAZE_PYTHON=ON", "-DGRAZE_TESTS=OFF", "-DGRAZE_INSTALL=OFF",
-                    "-DGRAZE_PRECOMPILED_HEADERS=ON", "-DGRAZE_TOGETHER=ON", f"-DPython3_EXECUTABLE={sys.executable}"]
+                    "-DGRAZE_PAGE=OFF", "-DGRAZE_PRECOMPILED_HEADERS=ON", "-DGRAZE_TOGETHER=ON",
+                    f"-DPython3_EXECUTABLE={sys.executable}"]
         settings += shlex.split(os.environ.get("CMAKE_ARGS", ""))
         subprocess.run(["cmake", "-S", str(ROOT), "-B", str(build), "-G", "Ninja", *settings], check=True)
         jobs = str(self.parallel or len(os.sched_getaffinity(0)))

@@ -1,6 +1,6 @@
 # The folders of the library, in the order of the architecture; each may use only those before it. Each is compiled once,
 # as an object library. The library consists of all of them; the tests of a folder are linked with it and those before it.
-set(GRAZE_FOLDERS base symbolic model tape flow trajectory record bench acquire identify sweep orbit grazing branch trip results study design layout picture)
+set(GRAZE_FOLDERS base symbolic model tape flow trajectory record bench acquire identify sweep orbit grazing branch trip results study design layout picture page)
 
 # Other libraries that a folder needs.
 set(GRAZE_NEEDS_sweep Threads::Threads)
@@ -9,6 +9,7 @@ set(GRAZE_NEEDS_acquire Boost::headers Threads::Threads)
 set(GRAZE_NEEDS_results SQLite::SQLite3 graze_hdf5)
 set(GRAZE_NEEDS_identify Ceres::ceres)
 set(GRAZE_NEEDS_design NLopt::nlopt)
+set(GRAZE_NEEDS_page nlohmann_json::nlohmann_json graze_httplib Threads::Threads)
 
 # Folders that compute for long enough to be worth optimising; the others are compiled fast. Under the thread sanitizer
 # tests are few and short, and fewer folders are optimised.
@@ -53,16 +54,21 @@ foreach(folder IN LISTS GRAZE_FOLDERS)
 endforeach()
 include(cmake/kernels.cmake)
 include(cmake/catalogue.cmake OPTIONAL)
+include(cmake/page.cmake OPTIONAL)
 
 target_compile_features(graze PUBLIC cxx_std_20)
 target_include_directories(
     graze PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
 )
-# All but HDF5, of which the Python module uses another form.
+# All but HDF5, of which the Python module uses another form, and cpp-httplib, which only the server of pages needs.
 set(GRAZE_LINKED fmt::fmt Threads::Threads SQLite::SQLite3 NLopt::nlopt Ceres::ceres)
-target_link_libraries(graze PRIVATE $<BUILD_INTERFACE:graze_options> ${GRAZE_LINKED} $<BUILD_INTERFACE:graze_hdf5>)
+target_link_libraries(graze PRIVATE $<BUILD_INTERFACE:graze_options> ${GRAZE_LINKED} $<BUILD_INTERFACE:graze_hdf5>
+                                    $<BUILD_INTERFACE:graze_httplib>
+)
 set_target_properties(
     graze PROPERTIES LINKER_LANGUAGE CXX VERSION ${PROJECT_VERSION} SOVERSION
                      ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
 )
-target_compile_definitions(graze_study PRIVATE GRAZE_VERSION="${PROJECT_VERSION}")
+foreach(folder study page)
+    target_compile_definitions(graze_${folder} PRIVATE GRAZE_VERSION="${PROJECT_VERSION}")
+endforeach()

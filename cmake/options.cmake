@@ -29,8 +29,10 @@ find_package(NLopt REQUIRED)
 # Only the headers of Asio are used.
 find_package(Boost 1.74 REQUIRED)
 find_package(Ceres REQUIRED)
+find_package(nlohmann_json 3.10 REQUIRED)
 find_package(Threads REQUIRED)
 include(cmake/hdf5.cmake)
+include(cmake/httplib.cmake)
 
 # Contractions to fused operations happen only where the source asks for them: lanes and scalar must agree bit for bit.
 add_library(graze_options INTERFACE)

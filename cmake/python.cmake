@@ -18,7 +18,7 @@ endforeach()
 pybind11_add_module(graze_python MODULE NO_EXTRAS ${python_bindings} ${library_objects})
 set_target_properties(graze_python PROPERTIES OUTPUT_NAME _graze LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/python/graze)
 target_include_directories(graze_python PRIVATE include src)
-target_link_libraries(graze_python PRIVATE graze_instrument graze_options ${GRAZE_LINKED} hdf5::hdf5)
+target_link_libraries(graze_python PRIVATE graze_instrument graze_options ${GRAZE_LINKED} hdf5::hdf5 graze_httplib)
 target_compile_options(graze_python PRIVATE ${GRAZE_COMPILED_FAST})
 # Calls within the module go straight to their functions, as in the program: a tenth of the time of sweeps.
 target_link_options(graze_python PRIVATE -Wl,-Bsymbolic-functions)

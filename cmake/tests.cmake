@@ -40,13 +40,15 @@ if(GRAZE_SANITIZERS STREQUAL "thread")
     set(test_folders threads)
     set(before_threads ${before_design})
     set(test_threads base/thread_team base/turns sweep/plan study/run_schedule study/runner study/shared_model study/side_by_side branch/yield
-                     trip/disturbed_trip design/value_map)
+                     trip/disturbed_trip design/value_map page/event_stream page/job_queue)
+    # Of the page only what runs in threads of its own, without the folders that it needs otherwise.
+    set(threads_of_page src/page/event_stream.cpp src/page/job_queue.cpp src/page/error_answer.cpp src/page/json_text.cpp)
 endif()
 
 foreach(folder IN LISTS test_folders)
     file(GLOB sources CONFIGURE_DEPENDS tests/${folder}/*.cpp)
     list(TRANSFORM test_${folder} REPLACE "(.+)" "tests/\\1_test.cpp" OUTPUT_VARIABLE chosen)
-    list(APPEND sources ${chosen})
+    list(APPEND sources ${chosen} ${${folder}_of_page})
     if(NOT sources OR (folder STREQUAL program AND NOT TARGET graze_program))
         continue()
     endif()

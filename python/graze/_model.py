@@ -55,6 +55,8 @@ class Model(Fixed):
     events: a dict from names to functions or `Event`s. jumps: a dict from names to dicts of changed states or `Jump`s.
     transitions: a list of `Transition`s. sections, symmetries, quantities: dicts from names to `Section`, `Symmetry`,
         `Quantity`, or to a function or expression.
+    drawing: what a page shows of a motion, a dict: {"x": (-2, 2), "y": (-1, 1), "shapes": [{"kind": "box", "at": (x, 0),
+        "size": (1, 0.5)}, ...]}.
     initial_mode: the mode in which the motion starts; the first one by default.
 
     An expression is a number, an expression in symbols, or a text. All that docs/model-format.md says of the parts of
@@ -65,11 +67,11 @@ class Model(Fixed):
                  time_unit: Any = None, states: Any = None, parameters: Any = None, definitions: Any = None,
                  rates: Any = None, watch: Any = None, modes: Any = None, events: Any = None, jumps: Any = None,
                  transitions: Any = None, sections: Any = None, symmetries: Any = None, quantities: Any = None,
-                 initial_mode: Any = None, **values: Any) -> None:
+                 drawing: Any = None, initial_mode: Any = None, **values: Any) -> None:
         parts = {"source": source, "time_unit": time_unit, "states": states, "parameters": parameters,
                  "definitions": definitions, "rates": rates, "watch": watch, "modes": modes, "events": events,
                  "jumps": jumps, "transitions": transitions, "sections": sections, "symmetries": symmetries,
-                 "quantities": quantities, "initial_mode": initial_mode}
+                 "quantities": quantities, "drawing": drawing, "initial_mode": initial_mode}
         if rates is not None or modes is not None:
             if file is not None:
                 raise ModelError("a model is read from a file or written by its equations, not both",

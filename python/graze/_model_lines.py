@@ -29,7 +29,7 @@ class ModelLines:
 
     def expression(self, key: str, value: Any, label: str) -> None:
         begin = len(f'{toml_key(key)} = "') + 1 if isinstance(value, str) else 0
-        self.add(f"{toml_key(key)} = {_expression(value, label)}", label, begin)
+        self.add(f"{toml_key(key)} = {expression_text(value, label)}", label, begin)
 
     def text(self, key: str, value: Any, label: str) -> None:
         if value is None or isinstance(value, str) and value == "":
@@ -42,7 +42,7 @@ class ModelLines:
         self.add(f"{toml_key(key)} = {toml_text(key_of(value, label))}", label)
 
 
-def _expression(value: Any, label: str) -> str:
+def expression_text(value: Any, label: str) -> str:
     """An expression or number as a value of TOML."""
     if isinstance(value, Expression):
         return toml_text(str(value))

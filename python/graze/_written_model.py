@@ -12,6 +12,7 @@ from ._errors import Error, InputError, ModelError, as_kind, relocated
 from ._expressions import Condition, Expression, short
 from ._keywords import toml_text
 from ._model_arguments import a_dict, a_list, key_of, mistake, part_of
+from ._model_drawing import write_drawing
 from ._model_lines import ModelLines
 from ._model_parts import Definition, Event, Jump, Mode, Parameter, Quantity, Section, State, Symmetry, Transition
 
@@ -24,7 +25,7 @@ class WrittenModel:
 
     def __init__(self, name: Any, *, text: Any, source: Any, time_unit: Any, states: Any, parameters: Any,
                  definitions: Any, rates: Any, watch: Any, modes: Any, events: Any, jumps: Any, transitions: Any,
-                 sections: Any, symmetries: Any, quantities: Any, initial_mode: Any) -> None:
+                 sections: Any, symmetries: Any, quantities: Any, drawing: Any, initial_mode: Any) -> None:
         self._out = ModelLines()
         self._modes = self._read_modes(rates, watch, modes)
         self._single = rates is not None
@@ -46,6 +47,7 @@ class WrittenModel:
         self._write_sections(sections)
         self._write_symmetries(symmetries)
         self._write_quantities(quantities)
+        write_drawing(self._out, drawing)
         self._out.header("initial", label="initial_mode")
         first = next(iter(self._modes), "") if initial_mode is None else initial_mode
         self._out.name("mode", first, "initial_mode")
@@ -364,6 +366,7 @@ class WrittenModel:
 
 # What the library says of a model file, and what that is in Python.
 _WORDS: List[Tuple[str, Any]] = [
+    (r"drawing\.shapes\.(\d+)", lambda found: f"drawing['shapes'][{int(found[1]) - 1}]"),
     (r"transitions\.(\d+)", lambda found: f"transitions[{int(found[1]) - 1}]"),
     (r"\.watch\.(\d+)", lambda found: f".watch[{int(found[1]) - 1}]"),
     (r", in \[states\]$", ", in states=..."),

@@ -3,6 +3,7 @@
 #include "graze/base/printable.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "model/check_symmetry.hpp"
+#include "model/model_drawing.hpp"
 #include "model/model_expressions.hpp"
 
 #include <fmt/format.h>
@@ -40,6 +41,10 @@ public:
         check_jumps();
         check_transitions();
         check_start();
+        if (model_.drawing && !scene_limits(model_))
+            warn_of("drawing",
+                    "at these parameters the limits of the drawing are not finite, or not in order: it is not "
+                    "shown");
         for (std::string& warning : symmetry_warnings(model_))
             warnings_.push_back({"", std::move(warning)});
         return std::move(warnings_);
@@ -60,6 +65,8 @@ private:
         for (const ExpressionRole role : {ExpressionRole::in_parameters, ExpressionRole::general})
             for (const Expression& symbol : symbols_of(expressions_of(model_, role)))
                 used.insert(symbol.name());
+        for (const Expression& symbol : symbols_of(drawn_expressions(model_)))
+            used.insert(symbol.name());
         for (const Parameter& parameter : model_.parameters)
             if (used.count(parameter.name) == 0)
                 warn("nothing uses the parameter '{}'", parameter.name);

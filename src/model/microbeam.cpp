@@ -3,6 +3,7 @@
 #include "base/read_whole.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/symbolic/transform.hpp"
+#include "model/microbeam_drawing.hpp"
 #include "model/microbeam_quadrature.hpp"
 
 #include <cmath>
@@ -74,6 +75,7 @@ public:
             add_transitions();
         }
         add_sections_and_quantities();
+        model_.drawing = microbeam_drawing(options_, [&](int i, double x) { return shape(i, x); });
         model_.validate();
         return std::move(model_);
     }

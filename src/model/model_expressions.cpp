@@ -143,16 +143,20 @@ StateChanges changes_of(const StateMap& map, std::span<const Expression> states,
     return changes;
 }
 
-Scope scope_of(const Model& model) {
+Scope scope_of(const Model& model, Graph& graph) {
     Scope scope;
     const auto add = [&](const auto& items) {
         for (const auto& item : items)
-            scope.insert_or_assign(item.name, model.symbol(item.name));
+            scope.insert_or_assign(item.name, graph.symbol(item.name));
     };
     add(model.parameters);
     add(model.states);
     add(model.definitions);
     return scope;
+}
+
+Scope scope_of(const Model& model) {
+    return scope_of(model, *model.graph);
 }
 
 void visit_expressions(Model& model, const std::function<void(Expression&)>& visit) {

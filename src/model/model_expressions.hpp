@@ -35,6 +35,8 @@ StateChanges changes_of(const StateMap& map, std::span<const Expression> states,
                         std::shared_ptr<const std::vector<Expression>>& identity);
 
 /// Returns the symbols that expressions of a model may have in them: parameters, states, definitions.
+/// @param graph the model's own, or another one, to which its names are then added
+Scope scope_of(const Model& model, Graph& graph);
 Scope scope_of(const Model& model);
 
 /// Passes every expression of a model, empty ones included, to `visit` for modification.

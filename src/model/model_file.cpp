@@ -3,7 +3,7 @@
 #include "graze/base/input_error.hpp"
 #include "graze/base/printable.hpp"
 #include "graze/base/text_file.hpp"
-#include "model/model_file_parts.hpp"
+#include "model/model_file_drawing.hpp"
 #include "model/model_validate.hpp"
 
 #include <fmt/format.h>
@@ -18,10 +18,10 @@ namespace graze {
 namespace {
 
 /// Reads one model, table by table.
-class ModelReader : private ModelParts {
+class ModelReader : private DrawingParts {
 public:
     ModelReader(std::string_view text, const std::string& file)
-        : ModelParts(text, file), root_(parse_toml(text, file)) {}
+        : DrawingParts(text, file), root_(parse_toml(text, file)) {}
 
     Model read() {
         if (root_.empty())
@@ -33,7 +33,7 @@ public:
                 reader_.require_known(entry, "",
                                       {"name", "text", "source", "time_unit", "parameters", "states", "definitions",
                                        "modes", "events", "jumps", "transitions", "sections", "symmetries",
-                                       "quantities", "initial"});
+                                       "quantities", "drawing", "initial"});
             });
             places_.set(entry.name, entry.place);
             top.emplace(entry.name, entry);
@@ -61,6 +61,7 @@ public:
         read("sections", &ModelReader::read_sections);
         read("symmetries", &ModelReader::read_symmetries);
         read("quantities", &ModelReader::read_quantities);
+        read("drawing", &ModelReader::read_drawing);
         read("initial", &ModelReader::read_initial);
         if (top.count("initial") == 0 && model_.modes.size() > 1)
             mistakes_.attempt([&] {

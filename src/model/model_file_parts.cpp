@@ -2,6 +2,7 @@
 
 #include "graze/base/input_error.hpp"
 #include "model/model_validate.hpp"
+#include "model/written_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -43,6 +44,21 @@ Expression ModelParts::parsed_expression(const TomlEntry& entry) {
     return parse_string(entry, [&](const std::string& text, const Place& place) {
         return parse_expression(*model_.graph, text, scope_, place);
     });
+}
+
+std::string ModelParts::expression_text(const TomlEntry& entry) {
+    std::string result = "0";
+    mistakes_.attempt([&] {
+        if (entry.node->is_number())
+            result = number_text(number(entry));
+        else if (!entry.node->is_string())
+            reader_.fail_type(entry, "a number or an expression");
+        else
+            result = parse_string(entry, [&](const std::string& text, const Place& place) {
+                return written_text(parse_expression(*drawing_graph_, text, drawing_scope_, place));
+            });
+    });
+    return result;
 }
 
 double ModelParts::number(const TomlEntry& entry) {

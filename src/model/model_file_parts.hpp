@@ -10,6 +10,7 @@
 #include <functional>
 #include <initializer_list>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -25,10 +26,15 @@ protected:
         : source_(text, file), reader_(file), places_(file, &source_) {}
 
     /// Makes the names of parameters, states and definitions known to expressions.
-    void make_scope() { scope_ = scope_of(model_); }
+    void make_scope() {
+        scope_ = scope_of(model_, *model_.graph);
+        drawing_scope_ = scope_of(model_, *drawing_graph_);
+    }
 
     /// Reads a number or the text of an expression. A mistake is noted, and a placeholder number returned.
     Expression expression(const TomlEntry& entry);
+    /// Reads the same for a drawing and returns its text: the graph of the model stays as it is.
+    std::string expression_text(const TomlEntry& entry);
     /// Reads a finite number.
     double number(const TomlEntry& entry);
     /// Reads conditions. Wrong ones are noted and left out.
@@ -108,7 +114,8 @@ private:
     template <typename Parse>
     auto parse_string(const TomlEntry& entry, Parse parse);
 
-    Scope scope_;
+    Scope scope_, drawing_scope_;
+    std::shared_ptr<Graph> drawing_graph_ = Graph::create();
     StateMap identity_;
     std::map<std::string, NamePlaces, std::less<>> name_places_; ///< for each kind of item
 };

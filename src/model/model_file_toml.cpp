@@ -13,7 +13,10 @@
 namespace graze {
 
 toml::table parse_toml(std::string_view text, const std::string& file, const char* remedy) {
-    guard_toml(text, SourceText(text, file));
+    const SourceText source(text, file);
+    if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos)
+        throw InputError(source.place(zero), "the text has a zero byte", "remove it");
+    guard_toml(text, source);
     try {
         return toml::parse(text, file);
     } catch (const toml::parse_error& error) {

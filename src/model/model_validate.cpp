@@ -5,6 +5,7 @@
 #include "graze/base/name_list.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "graze/symbolic/transform.hpp"
+#include "model/model_drawing.hpp"
 #include "model/model_expand.hpp"
 #include "model/model_expressions.hpp"
 #include "symbolic/lexer.hpp"
@@ -103,6 +104,8 @@ public:
             mistakes.attempt([&] { check_section(section); });
         mistakes.attempt([&] { check_values(); });
         mistakes.throw_noted();
+        if (model_.drawing) // its limits are values at these parameters
+            validate_drawing(model_, places_);
     }
 
 private:

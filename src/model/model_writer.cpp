@@ -4,10 +4,12 @@
 #include "graze/symbolic/parser.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "model/model_expressions.hpp"
+#include "model/written_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -15,36 +17,13 @@ namespace graze {
 
 namespace {
 
-/// Returns a TOML string; a multi-line string when the text has several lines.
-std::string quoted(const std::string& text) {
-    const bool long_form = text.find('\n') != std::string::npos;
-    std::string result = long_form ? "\"\"\"\n" : "\"";
-    for (const char c : text) {
-        const auto code = static_cast<unsigned char>(c);
-        if (c == '"' || c == '\\')
-            result += {'\\', c};
-        else if ((code < 0x20 && c != '\n' && c != '\t') || code == 0x7f)
-            result += fmt::format("\\u{:04X}", code);
-        else
-            result += c;
-    }
-    return result + (long_form ? "\"\"\"" : "\"");
-}
-
-/// Returns a number that reads back to the same double.
-std::string number_text(double value) {
-    if (value == 0 && std::signbit(value))
-        return "-0.0"; // "-0" would be an integer, which has no sign
-    return fmt::format("{}", value);
-}
-
 std::string value_text(const Expression& expression) {
-    return expression.is_number() ? number_text(expression.node().value) : quoted(to_string(expression));
+    return value_of_written(written_text(expression));
 }
 
 /// Returns "" for an empty text, which is left out.
 std::string quoted_if_any(const std::string& text) {
-    return text.empty() ? "" : quoted(text);
+    return text.empty() ? "" : toml_string(text);
 }
 
 /// Keys and values of an inline table; empty values are left out.
@@ -62,8 +41,8 @@ class ModelWriter {
 public:
     explicit ModelWriter(const Model& model) : model_(model), states_(model.state_symbols()), scope_(scope_of(model)) {}
 
-    std::string write() {
-        line("name = {}", quoted(model_.name));
+    std::string write(bool drawing) {
+        line("name = {}", toml_string(model_.name));
         string("text", model_.text);
         string("source", model_.source);
         string("time_unit", model_.time_unit);
@@ -75,8 +54,10 @@ public:
         write_sections();
         write_symmetries();
         write_quantities();
+        if (drawing && model_.drawing)
+            write_drawing(*model_.drawing);
         line("\n[initial]");
-        line("mode = {}", quoted(mode_name(model_.initial_mode)));
+        line("mode = {}", toml_string(mode_name(model_.initial_mode)));
         return std::move(text_);
     }
 
@@ -88,7 +69,7 @@ private:
     }
     void string(const char* key, const std::string& text) {
         if (!text.empty())
-            line("{} = {}", key, quoted(text));
+            line("{} = {}", key, toml_string(text));
     }
     /// Writes the short form `key = value` when there is only the first part, the value.
     void item(const std::string& key, const Parts& parts) {
@@ -103,7 +84,7 @@ private:
             line("\n[parameters]");
         for (const Parameter& parameter : model_.parameters) {
             // A dependent parameter is written as a string even if it is a number, so that it stays dependent.
-            const std::string value = parameter.expression ? quoted(to_string(*parameter.expression))
+            const std::string value = parameter.expression ? toml_string(to_string(*parameter.expression))
                                                            : number_text(parameter.value.value_or(std::nan("")));
             item(parameter.name,
                  {{"value", value}, {"unit", quoted_if_any(parameter.unit)}, {"text", quoted_if_any(parameter.text)}});
@@ -128,7 +109,7 @@ private:
             if (!mode.watched.empty()) {
                 std::vector<std::string> names;
                 for (const std::size_t event : mode.watched)
-                    names.push_back(quoted(model_.events[event].name));
+                    names.push_back(toml_string(model_.events[event].name));
                 line("watch = [{}]", fmt::join(names, ", "));
             }
             line("[modes.{}.rates]", mode.name);
@@ -188,28 +169,28 @@ private:
         for (const Transition& transition : model_.transitions) {
             const std::string& event = model_.events[transition.event].name;
             line("\n[[transitions]]");
-            line("mode = {}", quoted(mode_name(transition.mode)));
-            line("event = {}", quoted(event));
+            line("mode = {}", toml_string(mode_name(transition.mode)));
+            line("event = {}", toml_string(event));
             if (transition.label != mode_name(transition.mode) + ":" + event)
                 string("label", transition.label);
             if (transition.jump != 0)
-                line("jump = {}", quoted(model_.jumps[transition.jump].name));
+                line("jump = {}", toml_string(model_.jumps[transition.jump].name));
             const auto next = [&](const Alternative& alternative) {
-                return quoted(alternative.mode ? mode_name(*alternative.mode) : "end");
+                return toml_string(alternative.mode ? mode_name(*alternative.mode) : "end");
             };
             if (transition.next.size() == 1 && transition.next.front().when.empty()) {
                 line("next = {}", next(transition.next.front()));
             } else {
                 line("next = [");
                 for (const Alternative& alternative : transition.next) {
-                    const std::string when = alternative.when.empty() ? "" : quoted(conditions_text(alternative));
+                    const std::string when = alternative.when.empty() ? "" : toml_string(conditions_text(alternative));
                     line("    {},", inline_table({{"when", when}, {"mode", next(alternative)}}));
                 }
                 line("]");
             }
             if (transition.chatter)
-                line("chatter = {{ jump = {}, mode = {} }}", quoted(model_.jumps[transition.chatter->jump].name),
-                     quoted(mode_name(transition.chatter->mode)));
+                line("chatter = {{ jump = {}, mode = {} }}", toml_string(model_.jumps[transition.chatter->jump].name),
+                     toml_string(mode_name(transition.chatter->mode)));
         }
     }
 
@@ -218,7 +199,7 @@ private:
             line("\n[sections.{}]", section.name);
             string("text", section.text);
             if (section.state) {
-                line("state = {}", quoted(model_.states[*section.state].name));
+                line("state = {}", toml_string(model_.states[*section.state].name));
                 line("value = {}", value_text(section.value));
                 continue;
             }
@@ -236,7 +217,7 @@ private:
             std::vector<std::string> modes;
             for (std::size_t i = 0; i < symmetry.modes.size(); ++i)
                 if (symmetry.modes[i] != i)
-                    modes.push_back(fmt::format("{} = {}", mode_name(i), quoted(mode_name(symmetry.modes[i]))));
+                    modes.push_back(fmt::format("{} = {}", mode_name(i), toml_string(mode_name(symmetry.modes[i]))));
             if (!modes.empty())
                 line("modes = {{ {} }}", fmt::join(modes, ", "));
         }
@@ -251,6 +232,42 @@ private:
                                  {"text", quoted_if_any(quantity.text)}});
     }
 
+    static std::string pair(const std::string& x, const std::string& y) {
+        return fmt::format("[{}, {}]", value_of_written(x), value_of_written(y));
+    }
+    static std::string pair(const DrawnPair& both) { return pair(both.x, both.y); }
+
+    std::string shape(const DrawnShape& shape) const {
+        std::vector<std::string> points, modes;
+        for (const DrawnPair& point : shape.points)
+            points.push_back(pair(point));
+        for (const std::size_t mode : shape.modes)
+            modes.push_back(toml_string(mode_name(mode)));
+        const bool has_centre = !has_ends(shape.kind) && shape.kind != ShapeKind::path;
+        return inline_table(
+            {{"kind", toml_string(std::string(name_of(shape.kind)))},
+             {"from", has_ends(shape.kind) ? points.front() : ""},
+             {"to", has_ends(shape.kind) ? points.back() : ""},
+             {"points", shape.kind == ShapeKind::path ? fmt::format("[{}]", fmt::join(points, ", ")) : ""},
+             {"at", has_centre ? points.front() : ""},
+             {"size", shape.kind == ShapeKind::box ? pair(shape.size) : ""},
+             {"radius", shape.kind == ShapeKind::circle ? value_of_written(shape.radius) : ""},
+             {"text", shape.kind == ShapeKind::text ? toml_string(shape.text) : ""},
+             {"colour", shape.colour == ShapeColour::black ? "" : toml_string(std::string(name_of(shape.colour)))},
+             {"modes", modes.empty() ? "" : fmt::format("[{}]", fmt::join(modes, ", "))}});
+    }
+
+    void write_drawing(const ModelDrawing& drawing) {
+        line("\n[drawing]");
+        string("text", drawing.text);
+        line("x = {}", pair(drawing.x[0], drawing.x[1]));
+        line("y = {}", pair(drawing.y[0], drawing.y[1]));
+        line("shapes = [");
+        for (const DrawnShape& one : drawing.shapes)
+            line("    {},", shape(one));
+        line("]");
+    }
+
     const Model& model_;
     std::vector<Expression> states_;
     std::shared_ptr<const std::vector<Expression>> identity_; ///< see changes_of
@@ -262,7 +279,12 @@ private:
 
 std::string write_model(const Model& model) {
     model.validate();
-    return ModelWriter(model).write();
+    return ModelWriter(model).write(true);
+}
+
+std::string write_equations(const Model& model) {
+    model.validate();
+    return ModelWriter(model).write(false);
 }
 
 } // namespace graze

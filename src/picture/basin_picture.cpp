@@ -73,18 +73,18 @@ void fill_cells(FigurePanel& panel) {
     if (x.size() < 2 || y.size() < 2 || 2 * all.size() < x.size() * y.size())
         return;
     for (FigureSeries& series : panel.series) {
-        std::vector<std::pair<std::size_t, std::size_t>> cells; // row, column
-        for (const PlanePoint& point : series.points)
-            cells.emplace_back(y.index(point.y), x.index(point.x));
+        struct GridCell {
+            std::size_t row, column, number;
+            auto operator<=>(const GridCell&) const = default;
+        };
+        std::vector<GridCell> cells;
+        for (std::size_t i = 0; i < series.points.size(); ++i)
+            cells.push_back({y.index(series.points[i].y), x.index(series.points[i].x), series.numbers[i]});
         std::sort(cells.begin(), cells.end());
-        for (std::size_t i = 0; i < cells.size();) {
-            std::size_t last = i; // adjacent cells in a row are joined
-            while (last + 1 < cells.size() && cells[last + 1].first == cells[i].first &&
-                   cells[last + 1].second <= cells[last].second + 1)
-                ++last;
-            series.cells.push_back({x.edge_before(cells[i].second), x.edge_behind(cells[last].second),
-                                    y.edge_before(cells[i].first), y.edge_behind(cells[i].first)});
-            i = last + 1;
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            series.cells.push_back({x.edge_before(cells[i].column), x.edge_behind(cells[i].column),
+                                    y.edge_before(cells[i].row), y.edge_behind(cells[i].row)});
+            series.numbers[i] = cells[i].number;
         }
         series.style = FigureSeries::Style::cells;
         series.points.clear();
@@ -113,7 +113,8 @@ public:
                 for (std::size_t v = 0; v < one.marks.size(); ++v)
                     one.marks[v] = rows.number(7 + v);
             }
-            series_of(std::move(one), rows.text(0), spreads).points.push_back({rows.number(5), rows.number(6)});
+            series_of(std::move(one), rows.text(0), spreads)
+                .add({rows.number(5), rows.number(6)}, static_cast<std::size_t>(rows.integer(4)));
         }
         name_all(table);
         fill_cells(panel_);
@@ -154,6 +155,7 @@ private:
         const bool settled = drawn_as(label) == DrawnAs::attractor;
         // The symbol and hatch of others show that they are no attractors, and their label.
         panel_.series.push_back(settled ? FigureSeries{.colour = attractors_} : series_of_label(label));
+        panel_.series.back().run = run_->record.name;
         attractors_ += settled ? 1 : 0;
         return panel_.series.back();
     }
@@ -180,9 +182,11 @@ private:
             const std::vector<double> xs = samples_of(*point, *run_, x_, sampling, nullptr),
                                       ys = samples_of(*point, *run_, y_, sampling, nullptr);
             FigureSeries marks{"", FigureSeries::Style::symbols, FigureSeries::black};
+            marks.run = run_->record.name;
             for (std::size_t k = 0; k < xs.size(); ++k) {
-                marks.points.push_back({xs[k], ys[k]});
-                panel_.labels.push_back({{xs[k], ys[k]}, fmt::format("{}", i + 1), FigureSeries::black});
+                marks.add({xs[k], ys[k]}, point->number);
+                panel_.labels.push_back(
+                    {{xs[k], ys[k]}, fmt::format("{}", i + 1), FigureSeries::black, 0, "", marks.run, point->number});
             }
             panel_.series.push_back(std::move(marks));
         }

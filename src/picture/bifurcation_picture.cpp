@@ -116,6 +116,7 @@ void add_samples_of(FigurePanel& panel, const StudyPicture& picture, const Store
                                 over ? FigureSeries::Style::circles : FigureSeries::Style::dots,
                                 first_colour + s,
                                 {}});
+        panel.series.back().run = run.record.name;
     }
     const auto& known = run.record.directions;
     const bool has_direction = std::find(known.begin(), known.end(), shown.direction) != known.end();
@@ -124,8 +125,9 @@ void add_samples_of(FigurePanel& panel, const StudyPicture& picture, const Store
     const bool judged = seeks_attractors(run.record);
     FigureSeries uncertain = series_of_label(name_of(Label::unsettled));
     uncertain.title = named_with(name_of(Label::unsettled), over ? shown_name(picture, run.record.name) : "");
+    uncertain.run = run.record.name;
     auto rows = run.rows({.samples = true,
-                          .columns = {"sampling", "label"},
+                          .columns = {"sampling", "label", "number"},
                           .quantities = {x},
                           .values = {shown.value},
                           .directions = directions,
@@ -133,10 +135,10 @@ void add_samples_of(FigurePanel& panel, const StudyPicture& picture, const Store
     while (rows.next()) {
         const auto at = series.find(rows.text(0));
         const DrawnAs drawn = judged ? drawn_as(rows.text(1)) : DrawnAs::attractor;
-        if (at == series.end() || rows.is_null(3) || drawn == DrawnAs::nothing)
+        if (at == series.end() || rows.is_null(4) || drawn == DrawnAs::nothing)
             continue;
         FigureSeries& target = drawn == DrawnAs::attractor ? panel.series[at->second] : uncertain;
-        target.points.push_back({rows.number(2), rows.number(3)});
+        target.add({rows.number(3), rows.number(4)}, static_cast<std::size_t>(rows.integer(2)));
     }
     if (!uncertain.points.empty())
         panel.series.push_back(std::move(uncertain));

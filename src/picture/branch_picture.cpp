@@ -30,6 +30,7 @@ constexpr std::array<std::pair<Look, const char*>, 3> branch_looks{
     {{Look::stable, "stable"}, {Look::unstable, "unstable"}, {Look::unphysical, "unphysical"}}};
 
 struct DrawnPoint {
+    std::size_t number; ///< of the stored point
     std::string part, label;
     std::string name; ///< text that is shown for the label
     PointType type;
@@ -105,7 +106,7 @@ std::vector<DrawnPoint> points_of(const StoredRun& run, const StudyPicture& pict
     for (const std::string& name : drawn)
         require_known(picture, run, name);
     require_parts(run, picture);
-    auto rows = run.rows({.columns = {"part", "label", "type", "stable", "admissible", "step", "arclength"},
+    auto rows = run.rows({.columns = {"part", "label", "type", "stable", "admissible", "step", "arclength", "number"},
                           .quantities = drawn,
                           .directions = picture.directions});
     std::vector<DrawnPoint> points;
@@ -113,7 +114,8 @@ std::vector<DrawnPoint> points_of(const StoredRun& run, const StudyPicture& pict
         const auto number = [&](std::size_t column) { // infinite values cannot be drawn
             return rows.is_null(column) || std::isinf(rows.number(column)) ? not_a_number : rows.number(column);
         };
-        points.push_back({rows.text(0),
+        points.push_back({static_cast<std::size_t>(rows.integer(7)),
+                          rows.text(0),
                           rows.text(1),
                           run.record.point_name(rows.text(1)),
                           point_type(rows.text(2)).value_or(PointType::regular),
@@ -122,10 +124,10 @@ std::vector<DrawnPoint> points_of(const StoredRun& run, const StudyPicture& pict
                                                  : Look::stable,
                           rows.integer(5),
                           number(6),
-                          number(7),
+                          number(8),
                           {}});
         for (std::size_t v = 0; v < values.size(); ++v)
-            points.back().y.push_back(number(8 + v));
+            points.back().y.push_back(number(9 + v));
     }
     return points;
 }
@@ -187,8 +189,9 @@ bool is_marked(const StudyPicture& picture, const DrawnPoint& point) {
 /// Adds the lines, symbols and labels of a branch or curve to a panel.
 /// @param kept type of the curve; none: a branch, whose line style shows stability
 /// @param owner name of the branch if there are several; empty: its labels are black
-void add_branch(FigurePanel& panel, const StudyPicture& picture, const std::vector<DrawnPoint>& points,
-                const std::optional<PointType>& kept, std::size_t value, std::size_t colour, const std::string& owner) {
+void add_branch(FigurePanel& panel, const StudyPicture& picture, const std::string& run,
+                const std::vector<DrawnPoint>& points, const std::optional<PointType>& kept, std::size_t value,
+                std::size_t colour, const std::string& owner) {
     const std::size_t labels = owner.empty() ? FigureSeries::black : colour;
     // Unphysical stretches are drawn first, below the others.
     const std::vector<Stretch> stretches = stretches_of(points);
@@ -198,11 +201,12 @@ void add_branch(FigurePanel& panel, const StudyPicture& picture, const std::vect
                 continue;
             FigureSeries series{"", kept ? style_of(*kept) : style_of(stretch.look),
                                 unphysical ? FigureSeries::grey : colour};
+            series.run = run;
             for (const std::size_t at : stretch.points) {
                 if (kind_of(points[at].type)
                         .limits) // the segment with the greatest value changes there: the line has a corner
                     series.corners.push_back(series.points.size());
-                series.points.push_back({points[at].x, points[at].y[value]});
+                series.add({points[at].x, points[at].y[value]}, points[at].number);
                 series.along.push_back(points[at].along);
             }
             panel.series.push_back(std::move(series));
@@ -212,17 +216,20 @@ void add_branch(FigurePanel& panel, const StudyPicture& picture, const std::vect
         if (is_marked(picture, point))
             symbols.insert(kind_of(point.type).mark);
     for (const int symbol : symbols) {
-        FigureSeries series{.style = FigureSeries::Style::symbols, .colour = colour, .symbol = symbol};
+        FigureSeries series{.style = FigureSeries::Style::symbols, .colour = colour, .symbol = symbol, .run = run};
         for (const DrawnPoint& point : points)
             if (kind_of(point.type).mark == symbol && is_marked(picture, point)) {
                 const PlanePoint here{point.x, point.y[value]};
-                series.points.push_back(here);
-                panel.labels.push_back({here, point.name, labels, rank_of(point), owner});
+                series.add(here, point.number);
+                panel.labels.push_back({here, point.name, labels, rank_of(point), owner, run, point.number});
             }
         panel.series.push_back(std::move(series));
     }
-    if (points.size() == 1)
-        panel.series.push_back({"", FigureSeries::Style::circles, colour, {{points[0].x, points[0].y[value]}}});
+    if (points.size() == 1) {
+        FigureSeries& series = panel.series.emplace_back(FigureSeries{"", FigureSeries::Style::circles, colour});
+        series.run = run;
+        series.add({points[0].x, points[0].y[value]}, points[0].number);
+    }
 }
 
 /// Colours of the runs; runs with the same shown name have the same colour.
@@ -316,7 +323,7 @@ ResultPicture branch_picture(const StudyPicture& picture, const ResultFile& file
                           (runs.size() == 1 ? shown_name(picture, runs.front().record.name) : std::string());
         const std::vector<std::size_t> colours = colours_of(picture, runs);
         for (std::size_t r = 0; r < runs.size(); ++r)
-            add_branch(panel, picture, points[r], kept[r], v, colours[r],
+            add_branch(panel, picture, runs[r].record.name, points[r], kept[r], v, colours[r],
                        runs.size() > 1 ? shown_name(picture, runs[r].record.name) : "");
         add_legend(panel, picture, runs, points, kept);
         figure.panels.push_back(std::move(panel));

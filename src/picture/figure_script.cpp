@@ -6,6 +6,7 @@
 #include "picture/figure_look.hpp"
 #include "picture/gnuplot_text.hpp"
 #include "picture/interleaved_points.hpp"
+#include "picture/joined_cells.hpp"
 #include "picture/page_line.hpp"
 
 #include <fmt/format.h>
@@ -342,7 +343,7 @@ private:
 
     std::string data_text(const FigureSeries& series, const FigurePanel& panel, const PanelLayout& layout) const {
         std::string text;
-        for (const PlaneBox& cell : series.cells)
+        for (const PlaneBox& cell : joined_cells(series))
             text += fmt::format("{:.10g} {:.10g} {:.10g} {:.10g} {:.10g} {:.10g}\n", (cell.left + cell.right) / 2,
                                 (cell.low + cell.high) / 2, cell.left, cell.right, cell.low, cell.high);
         std::size_t written = 0;

@@ -3,6 +3,7 @@
 #include "picture/picture_kinds.hpp"
 
 #include "graze/study/point_motion.hpp"
+#include "graze/study/stored_study.hpp"
 
 #include <fmt/format.h>
 
@@ -66,6 +67,19 @@ std::vector<PlanePoint> jumps_of(const DenseMotion& motion, std::size_t value) {
     return points;
 }
 
+/// Events of which the picture shows the contacts as samples.
+std::set<std::size_t> sampled_events(const StudyPicture& picture, const StoredRun& run) {
+    std::set<std::size_t> events;
+    const StudyRun asked = stored_run(run.record);
+    if (!asked.has_motions())
+        return events;
+    const std::vector<std::string> shown = shown_samplings(picture, run);
+    for (const Sampling& one : asked.motion().samplings)
+        if (std::ranges::find(shown, one.name) != shown.end())
+            events.insert(one.events.begin(), one.events.end());
+    return events;
+}
+
 /// Adds the motions of points to the panels of a figure, one after the other.
 class MotionPanels {
 public:
@@ -90,13 +104,16 @@ public:
         DenseMotion motion;
         if (curve)
             motion = dense_motion(run, point, names, picture_->place, portrait_ ? WhenLong::last : WhenLong::coarser);
+        const std::set<std::size_t> sampled = curve ? sampled_events(*picture_, run) : std::set<std::size_t>{};
         const std::string title = title_of_motion(*picture_, run, point, at);
         for (std::size_t v = 1; v < names.size(); ++v) {
             FigurePanel& panel = panel_for(run, x, names[v], v - 1, title);
+            const std::size_t before = panel.series.size();
             if (curve)
-                add_curve(panel, motion, v, title, run.model.time_unit);
+                add_curve(panel, motion, v, title, run.model.time_unit, sampled);
             add_samples(panel, run, point, x, names[v],
                         curve ? FigureSeries::Style::circles : FigureSeries::Style::dots);
+            show_point(panel, before, run.record.name, point.number);
         }
         ++colour_;
     }
@@ -123,20 +140,24 @@ private:
         }
         return figure_.panels[index];
     }
+    /// @param sampled events whose contacts are drawn as samples, and not marked a second time
     void add_curve(FigurePanel& panel, const DenseMotion& motion, std::size_t value, const std::string& title,
-                   const std::string& time_unit) const {
+                   const std::string& time_unit, const std::set<std::size_t>& sampled) const {
         constexpr std::size_t most_marked = 2000; // more marks would hide the curve
         const std::size_t colour = portrait_ && !over_ ? 7 : colour_;
         panel.series.push_back(
             {is_titled() ? "" : title, FigureSeries::Style::line, colour, curve_of(motion, 0, value)});
-        panel.series.push_back({"jump", FigureSeries::Style::dotted, FigureSeries::black, jumps_of(motion, value)});
+        add_if_drawn(panel, {"jump", FigureSeries::Style::dotted, FigureSeries::black, jumps_of(motion, value)});
         FigureSeries impacts{"impact", FigureSeries::Style::symbols, FigureSeries::black};
-        for (const std::size_t row : motion.impacts)
-            impacts.points.push_back({motion.values[0][row], motion.values[value][row]});
+        for (std::size_t i = 0; i < motion.impacts.size(); ++i)
+            if (const std::size_t row = motion.impacts[i]; !sampled.contains(motion.met[i]))
+                impacts.points.push_back({motion.values[0][row], motion.values[value][row]});
         if (impacts.points.size() <= most_marked)
-            panel.series.push_back(std::move(impacts));
+            add_if_drawn(panel, std::move(impacts));
         else
             panel.notes.push_back(fmt::format("{} impacts are not marked", impacts.points.size() / 2));
+        if (motion.outcome.ending == Ending::stopped)
+            panel.notes.emplace_back("to follow the motion to its end takes too long");
         if (motion.start > 0)
             panel.notes.push_back(
                 fmt::format("from t = {:.6g}{}{} on", motion.start, time_unit.empty() ? "" : " ", time_unit));

@@ -7,8 +7,6 @@ namespace graze {
 
 namespace {
 
-/// A step of high order covers a large part of an oscillation; superfluous points are left out before drawing.
-constexpr int points_of_step = 32;
 constexpr std::size_t most_recorded = 2'000'000;
 
 } // namespace
@@ -28,8 +26,9 @@ std::vector<bool> usual_marks(const Model& model) {
     return marked;
 }
 
-MotionRecorder::MotionRecorder(const Simulation& simulation, MotionPanelChoice contents)
-    : simulation_(simulation), contents_(std::move(contents)), evaluate_(simulation.model(), contents_.columns) {
+MotionRecorder::MotionRecorder(const Simulation& simulation, MotionPanelChoice contents, int points_of_step)
+    : simulation_(simulation), contents_(std::move(contents)), evaluate_(simulation.model(), contents_.columns),
+      points_of_step_(points_of_step) {
     state_.resize(simulation.system().states());
     motion_.values.resize(contents_.columns.size() + 1);
     set_parameters(simulation.model().parameter_values());
@@ -61,11 +60,17 @@ void MotionRecorder::step(const Step& step) {
         complete_ = false;
         return;
     }
-    if (new_arc_ && rows > 0)
-        motion_.begins.push_back(rows);
+    if (new_arc_) {
+        if (rows > 0)
+            motion_.begins.push_back(rows);
+        if (after_impact_)
+            motion_.impacts.push_back(rows);
+        motion_.modes.push_back(step.mode);
+    }
+    after_impact_ = false;
     std::vector<double> state(state_.size());
-    for (int k = new_arc_ ? 0 : 1; k <= points_of_step; ++k) {
-        const double s = k == points_of_step ? step.length : step.length * k / points_of_step;
+    for (int k = new_arc_ ? 0 : 1; k <= points_of_step_; ++k) {
+        const double s = k == points_of_step_ ? step.length : step.length * k / points_of_step_;
         for (std::size_t i = 0; i < state.size(); ++i)
             state[i] = step.state(i, s);
         const Row row = row_of(step.start + s, state);
@@ -77,8 +82,16 @@ void MotionRecorder::step(const Step& step) {
 
 void MotionRecorder::contact(const Contact& contact) {
     const bool touch = contact.kind == ContactKind::touch;
-    if (!touch)
+    if (!touch) {
         new_arc_ = true;
+        const std::size_t rows = motion_.values.front().size();
+        // Contacts at the same time have the rows of the arcs before and after them.
+        if (complete_ && contents_.marked[contact.event] && !after_impact_) {
+            if (rows > 0)
+                motion_.impacts.push_back(rows - 1);
+            after_impact_ = true;
+        }
+    }
     if (complete_)
         jumps_.push_back({row_of(contact.time, contact.before), row_of(contact.time, contact.after),
                           contents_.marked[contact.event]});
@@ -97,6 +110,7 @@ std::string MotionRecorder::section_names() const {
 }
 
 void MotionRecorder::finish(const Trajectory& trajectory) {
+    motion_.outcome = trajectory.outcome();
     if (trajectory.outcome().ending == Ending::singular)
         singularity_ = trajectory.outcome().time;
 }

@@ -88,6 +88,7 @@ Axes axes_of(const Model& model, const StudyPicture& picture) {
 
 /// An orbit's motion, and its values on the axes.
 struct DrawnOrbit {
+    std::string run; ///< to which it belongs
     OrbitRecord record;
     std::vector<SegmentMotion> motion;
     std::vector<std::vector<std::vector<double>>> values; ///< [segment][value][row]
@@ -97,8 +98,12 @@ struct DrawnOrbit {
 
 DrawnOrbit drawn_orbit(const StoredRun& run, OrbitRecord record, const StudyPicture& picture) {
     const Orbit orbit = whole_orbit(System(run.model), record.point.solution.orbit);
-    DrawnOrbit drawn{
-        std::move(record), orbit_motion(run.model, orbit, drawn_samples), {}, model_at(run.model, orbit), {}};
+    DrawnOrbit drawn{run.record.name,
+                     std::move(record),
+                     orbit_motion(run.model, orbit, drawn_samples),
+                     {},
+                     model_at(run.model, orbit),
+                     {}};
     drawn.axes = axes_of(drawn.model, picture);
     QuantityEvaluator evaluate(drawn.model, drawn.axes.values);
     for (const SegmentMotion& segment : drawn.motion) {
@@ -214,6 +219,7 @@ std::string shown_end(const StudyPicture& picture, const DrawnOrbit& orbit, std:
 void add_curves(FigurePanel& panel, const StudyPicture& picture, const DrawnOrbit& orbit, std::size_t value,
                 std::optional<std::size_t> colour, const std::string& title) {
     const OrbitCurves curves(orbit, value);
+    const std::size_t before = panel.series.size();
     constexpr std::size_t most_titles = 8;
     const std::size_t kinds = std::max<std::size_t>(1, orbit.record.point.solution.orbit.segments());
     for (std::size_t s = 0; s < orbit.motion.size(); ++s) {
@@ -223,16 +229,17 @@ void add_curves(FigurePanel& panel, const StudyPicture& picture, const DrawnOrbi
                                shown_end(picture, orbit, s));
         panel.series.push_back({name, FigureSeries::Style::line, colour.value_or(s % kinds), curves.line(s)});
     }
-    panel.series.push_back({"jump", FigureSeries::Style::dotted, FigureSeries::black, curves.jumps()});
+    add_if_drawn(panel, {"jump", FigureSeries::Style::dotted, FigureSeries::black, curves.jumps()});
     const SpecialPoint& point = orbit.record.point;
     const Signature signature = whole_orbit(System(orbit.model), point.solution.orbit).signature;
-    panel.series.push_back({"event", FigureSeries::Style::circles, FigureSeries::black, curves.events(signature)});
+    add_if_drawn(panel, {"event", FigureSeries::Style::circles, FigureSeries::black, curves.events(signature)});
     if (point.type == PointType::grazing && !point.at_end && point.segment < orbit.motion.size() &&
         !orbit.motion[point.segment].times.empty()) {
         const PlanePoint touch = curves.at_time(point.segment, point.time);
         panel.series.push_back({"touch", FigureSeries::Style::symbols, FigureSeries::black, {touch}, 12});
         panel.labels.push_back({touch, shown_name(picture, orbit.model.events[point.event].name)});
     }
+    show_point(panel, before, orbit.run, orbit.record.number);
 }
 
 FigurePanel history_panel(const StudyPicture& picture, const DrawnOrbit& orbit, std::size_t v) {

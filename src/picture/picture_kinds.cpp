@@ -187,4 +187,16 @@ FigureSeries series_of_label(std::string_view label) {
     return {.style = FigureSeries::Style::symbols, .colour = look.colour, .symbol = look.symbol, .hatch = look.hatch};
 }
 
+void add_if_drawn(FigurePanel& panel, FigureSeries series) {
+    if (!series.points.empty())
+        panel.series.push_back(std::move(series));
+}
+
+void show_point(FigurePanel& panel, std::size_t first, const std::string& run, std::size_t number) {
+    for (std::size_t s = first; s < panel.series.size(); ++s) {
+        panel.series[s].run = run;
+        panel.series[s].numbers.assign(panel.series[s].points.size(), number);
+    }
+}
+
 } // namespace graze

@@ -60,6 +60,10 @@ std::string note_of_left_out(const StoredRun& run, const std::vector<std::string
 /// A series of points without an attractor, whose colour, symbol and, for cells, hatch show their label.
 /// @param label name of a Label
 FigureSeries series_of_label(std::string_view label);
+/// Adds a series unless it is empty, so that legends name only what is drawn.
+void add_if_drawn(FigurePanel& panel, FigureSeries series);
+/// Says of the series of a panel, from `first` on, that they show one stored point of a run, as its motion does.
+void show_point(FigurePanel& panel, std::size_t first, const std::string& run, std::size_t number);
 
 // Pictures of each kind.
 ResultPicture bifurcation_picture(const StudyPicture& picture, const ResultFile& file);

@@ -15,15 +15,15 @@ namespace graze {
 namespace {
 
 /// The points of each regression line, by the value of the grouping variable.
-std::map<double, std::vector<PlanePoint>> groups_of(const StudyPicture& picture, const StoredRun& run,
-                                                    const std::string& x, const std::string& y) {
+std::map<double, FigureSeries> groups_of(const StudyPicture& picture, const StoredRun& run, const std::string& x,
+                                         const std::string& y) {
     auto rows = run.rows({.samples = true,
                           .columns = {"number", "label"},
                           .quantities = {picture.group.empty() ? "0" : picture.group, picture.successive ? "0" : x},
                           .values = {y},
                           .samplings = shown_samplings(picture, run),
                           .sorted_by = picture.group});
-    std::map<double, std::vector<PlanePoint>> groups;
+    std::map<double, FigureSeries> groups;
     std::int64_t last = -1;
     double before = 0;
     const bool judged = seeks_attractors(run.record);
@@ -31,10 +31,11 @@ std::map<double, std::vector<PlanePoint>> groups_of(const StudyPicture& picture,
         if (judged && drawn_as(rows.text(1)) == DrawnAs::nothing)
             continue; // no regression through unbounded or failed motions
         const double value = rows.number(4);
+        const auto number = static_cast<std::size_t>(rows.integer(0));
         if (!picture.successive)
-            groups[rows.number(2)].push_back({rows.number(3), value});
+            groups[rows.number(2)].add({rows.number(3), value}, number);
         else if (rows.integer(0) == last)
-            groups[rows.number(2)].push_back({before, value});
+            groups[rows.number(2)].add({before, value}, number);
         last = rows.integer(0);
         before = value;
     }
@@ -97,10 +98,12 @@ ResultPicture regression_picture(const StudyPicture& picture, const ResultFile& 
                           {"intercept_error", ""},
                           {"points", ""}});
     std::size_t colour = 0;
-    for (const auto& [value, points] : groups_of(picture, run, x, y)) {
-        const RegressionLine fit = fit_of(picture, points);
+    for (auto& [value, points] : groups_of(picture, run, x, y)) {
+        const RegressionLine fit = fit_of(picture, points.points);
         const Regression& line = fit.line;
-        panel.series.push_back({"", FigureSeries::Style::dots, colour, points});
+        points.colour = colour;
+        points.run = run.record.name;
+        panel.series.push_back(std::move(points));
         if (line.points > 1)
             panel.series.push_back(fitted_line(
                 picture, fit, picture.group.empty() ? "" : shown_value(picture, run, picture.group, value) + ": ",
@@ -128,18 +131,21 @@ ResultPicture scatter_picture(const StudyPicture& picture, const ResultFile& fil
                 figure.panels.push_back(panel_of(picture, run, x, ys[v], v));
             FigureSeries series{picture.runs.size() > 1 ? shown_name(picture, picture.runs[r]) : "",
                                 FigureSeries::Style::circles, r};
+            series.run = picture.runs[r];
             const bool sampled = run.has_value(ys[v]) && !run.record.is_branch();
             const bool judged = seeks_attractors(run.record);
             FigureSeries uncertain = series_of_label(name_of(Label::unsettled));
             uncertain.title = name_of(Label::unsettled);
-            auto rows = run.rows({.samples = sampled, .columns = {"label"}, .quantities = {x, ys[v]}});
+            uncertain.run = picture.runs[r];
+            auto rows = run.rows({.samples = sampled, .columns = {"label", "number"}, .quantities = {x, ys[v]}});
             while (rows.next()) {
-                if (rows.is_null(1) || rows.is_null(2))
+                if (rows.is_null(2) || rows.is_null(3))
                     continue;
                 const DrawnAs drawn = judged ? drawn_as(rows.text(0)) : DrawnAs::attractor;
                 if (sampled && drawn == DrawnAs::nothing)
                     continue;
-                (drawn == DrawnAs::uncertain ? uncertain : series).points.push_back({rows.number(1), rows.number(2)});
+                (drawn == DrawnAs::uncertain ? uncertain : series)
+                    .add({rows.number(2), rows.number(3)}, static_cast<std::size_t>(rows.integer(1)));
             }
             figure.panels[v].series.push_back(std::move(series));
             if (!uncertain.points.empty())

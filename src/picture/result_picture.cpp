@@ -72,19 +72,19 @@ void remove_repeated(std::vector<std::string>& names) {
     std::erase_if(names, [&](const std::string& name) { return !known.insert(name).second; });
 }
 
-using Drawing = ResultPicture (*)(const StudyPicture&, const ResultFile&);
+using PictureFunction = ResultPicture (*)(const StudyPicture&, const ResultFile&);
 
 /// What draws a kind of picture.
-constexpr std::array<std::pair<std::string_view, Drawing>, 10> drawings{{{"basin", basin_picture},
-                                                                         {"branch", branch_picture},
-                                                                         {"history", motion_picture},
-                                                                         {"map", basin_picture},
-                                                                         {"poincare", motion_picture},
-                                                                         {"portrait", motion_picture},
-                                                                         {"regression", regression_picture},
-                                                                         {"residuals", residual_picture},
-                                                                         {"scatter", scatter_picture},
-                                                                         {"spectrum", spectrum_picture}}};
+constexpr std::array<std::pair<std::string_view, PictureFunction>, 10> drawings{{{"basin", basin_picture},
+                                                                                 {"branch", branch_picture},
+                                                                                 {"history", motion_picture},
+                                                                                 {"map", basin_picture},
+                                                                                 {"poincare", motion_picture},
+                                                                                 {"portrait", motion_picture},
+                                                                                 {"regression", regression_picture},
+                                                                                 {"residuals", residual_picture},
+                                                                                 {"scatter", scatter_picture},
+                                                                                 {"spectrum", spectrum_picture}}};
 
 } // namespace
 
@@ -95,7 +95,7 @@ ResultPicture make_picture(const StudyPicture& given, const ResultFile& file) {
             picture.kind = default_picture(*run).kind;
     remove_repeated(picture.runs);
     remove_repeated(picture.over);
-    Drawing draw = bifurcation_picture;
+    PictureFunction draw = bifurcation_picture;
     for (const auto& [kind, drawing] : drawings)
         if (picture.kind == kind)
             draw = drawing;

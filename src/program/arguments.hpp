@@ -91,6 +91,13 @@ struct PlotArguments {
     std::vector<std::string> at, logarithmic, names;
 };
 
+struct ViewArguments {
+    std::string opened, folder;
+    int port = 0; ///< 0: a free one
+    int jobs = 0; ///< 0: as many as there are cores
+    bool model = false, open = false;
+};
+
 struct PointsArguments {
     std::string file;
     std::vector<std::string> runs, types;

@@ -13,6 +13,7 @@ int simulate_command(const SimulateArguments& arguments, const Console& console)
 int run_command(const RunArguments& arguments, const Console& console);
 int export_command(const ExportArguments& arguments, const Console& console);
 int plot_command(const PlotArguments& arguments, const Console& console);
+int view_command(const ViewArguments& arguments, const Console& console);
 int info_command(const InfoArguments& arguments, const Console& console);
 int help_command(const HelpArguments& arguments, const Console& console);
 int completion_command(const CompletionArguments& arguments, const Console& console);

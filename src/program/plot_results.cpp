@@ -1,9 +1,11 @@
+#include "graze/page/page_file.hpp"
 #include "graze/picture/figure_script.hpp"
 #include "graze/picture/result_picture.hpp"
 #include "graze/results/stored_run.hpp"
 #include "graze/study/showable_names.hpp"
 #include "program/commands.hpp"
 #include "program/drawing.hpp"
+#include "program/output_file.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>
@@ -128,9 +130,9 @@ void check_names(const PlotArguments& arguments, const ResultFile& file, const s
         showable.require(name, {"--name", 0, 0}, fmt::format("'{}'", name));
 }
 
-/// Draws branches into one picture. @return false if the runs are not branches, or not to be drawn as such
-bool draw_together(const PlotArguments& arguments, const ResultFile& file, const std::vector<std::string>& names,
-                   const Console& console) {
+/// The picture with all branches. Nothing if the runs are not branches, or not to be drawn as such.
+std::optional<StudyPicture> joint_picture(const PlotArguments& arguments, const ResultFile& file,
+                                          const std::vector<std::string>& names) {
     StudyPicture picture;
     const std::vector<RunRecord> all = file.runs();
     const bool followed = std::any_of(all.begin(), all.end(), [](const RunRecord& run) { return run.is_followed(); });
@@ -140,15 +142,41 @@ bool draw_together(const PlotArguments& arguments, const ResultFile& file, const
             continue; // the starting orbit of a branch is one of the branch's points
         const StudyPicture one = picture_of(arguments, run.record);
         if (!run.record.is_branch() || one.kind != "branch")
-            return false;
+            return std::nullopt;
         if (picture.runs.empty())
             picture = one;
         else
             picture.runs.push_back(name);
     }
-    draw_figure(make_picture(picture, file).figure, arguments.output, arguments.data);
+    return picture;
+}
+
+/// Draws branches into one picture. @return false if the runs are not branches, or not to be drawn as such
+bool draw_together(const PlotArguments& arguments, const ResultFile& file, const std::vector<std::string>& names,
+                   const Console& console) {
+    const std::optional<StudyPicture> picture = joint_picture(arguments, file, names);
+    if (!picture)
+        return false;
+    draw_figure(make_picture(*picture, file).figure, arguments.output, arguments.data);
     console.out << arguments.output << '\n';
     return true;
+}
+
+/// Writes one HTML file with all runs, which a browser shows. The pictures that the options describe come first.
+void write_page(const PlotArguments& arguments, const ResultFile& file, const std::vector<std::string>& names,
+                const Console& console) {
+    if (!arguments.data.empty())
+        throw InputError({"--data", 0, 0}, "a page has its data in itself", "leave --data out");
+    PageFileOptions page{.title = arguments.picture.title, .runs = names};
+    if (auto joint = joint_picture(arguments, file, names); joint && joint->runs.size() > 1) {
+        joint->name = "branches";
+        page.pictures.push_back(std::move(*joint));
+    } else {
+        for (const std::string& name : names)
+            page.pictures.push_back(picture_of(arguments, StoredRun(file, name, {"--run", 0, 0}).record));
+    }
+    write_file(arguments.output, page_file(file, page));
+    console.out << arguments.output << '\n';
 }
 
 /// Checks names of attractors in --name. They consist of period and signature, which are known only after drawing.
@@ -194,6 +222,10 @@ int plot_command(const PlotArguments& arguments, const Console& console) {
         shown = runs_to_show(file, console);
     const std::vector<std::string>& names = shown.names;
     check_names(arguments, file, names);
+    if (arguments.output.ends_with(".html")) {
+        write_page(arguments, file, names, console);
+        return shown.complete ? exit_success : exit_irregular;
+    }
     if (names.size() > 1 && !arguments.output.empty()) {
         if (!draw_together(arguments, file, names, console))
             throw InputError({"--output", 0, 0}, "several runs cannot go into one picture", "choose one by --run NAME");

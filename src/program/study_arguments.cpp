@@ -25,6 +25,20 @@ constexpr const char* run_examples = R"(Examples:
   graze run --keys sweep                          the keys of a run of kind sweep
   graze run --schema > study.schema.json          for an editor that completes TOML)";
 
+constexpr const char* view_text = R"(Look at results in a browser, and go on from there.
+Prints the address of a page that only this machine can open, and serves it until Ctrl-C. It shows diagrams, the orbit of a
+point that is clicked, and its motion; of results that another graze is still computing too. From a point, further runs are
+begun by buttons: find its orbit, follow it, switch branches. They are added to the text of a study, which can be edited and
+saved, and are computed in the background. Nothing is written but the results, while they are computed, and the study where
+it is saved. The address contains a token, without which the page shows no data: do not pass it on.)";
+
+constexpr const char* view_examples = R"(Examples:
+  graze view results                   results, also while they are computed
+  graze view my-study.toml             compute its runs, change it, and look at both
+  graze view my-model.toml             begin with a model alone
+  graze view microbeam --model         the shipped model, not the study of the same name
+  graze view results --port 8080 --open)";
+
 constexpr const char* info_text = R"(Describe the contents of a file.
 For results: the study, its runs and their points, when they were computed, and by which version of graze. For a model or
 a study: its parts. Shipped models and studies are given by their names.)";
@@ -56,7 +70,8 @@ constexpr const char* plot_examples = R"(Examples:
   graze plot testbed --run sweep_7Hz --y v --direction up --x-range 3.6:3.8 --output onset.svg
   graze plot testbed --run sweep_6_25Hz --kind portrait --x I --y v --at V0=4.833 --output orbit.png
   graze plot results --run chain,doubled --y period --output branches.pdf
-  graze plot results --run chain --kind portrait --point GR1 --output grazing.png)";
+  graze plot results --run chain --kind portrait --point GR1 --output grazing.png
+  graze plot results --output results.html)";
 
 void declare_run(CommandLine& line) {
     auto [options, run] = line.command("run", run_text, run_examples, run_command);
@@ -81,6 +96,18 @@ void declare_run(CommandLine& line) {
     options.progress(run.progress);
     options.add("--quiet", run.quiet, "Do not list the runs at the end");
     options.format(run.output);
+}
+
+void declare_view(CommandLine& line) {
+    auto [options, view] = line.command("view", view_text, view_examples, view_command);
+    options.add("[OPENED]", view.opened,
+                "Results or their folder, a study, or a model: a file, or what comes with graze (the current folder)");
+    options.add("--port N", view.port, "Port of the address (a free one)", whole_number(1, 65535));
+    options.add("--output FOLDER", view.folder,
+                "Folder of the results of a study or model, and of a study that is new (results: the study's name)");
+    options.add("--model", view.model, "Of a name that a study and a model bear, the model is meant");
+    options.add("--open", view.open, "Open the page in the browser that the desktop prefers");
+    options.jobs(view.jobs);
 }
 
 void declare_info(CommandLine& line) {
@@ -144,7 +171,10 @@ void declare_plot_results(CommandLine& line) {
     options.add("--y-label TEXT", plot.picture.y_labels,
                 "Labels of the vertical axes with their units (made by graze)");
     options.style(plot.style);
-    options.add("--output FILE", plot.output, "Picture: .png (default), .svg, .pdf, .eps or, for LaTeX, .tex");
+    options.add(
+        "--output FILE", plot.output,
+        "Picture: .png (default), .svg, .pdf, .eps, for LaTeX .tex, or .html: one page with all runs and orbits of "
+        "their points, for a browser");
     options.add("--data FILE", plot.data, kept_data_text);
 }
 
@@ -152,6 +182,7 @@ void declare_plot_results(CommandLine& line) {
 
 void declare_study_commands(CommandLine& line) {
     declare_run(line);
+    declare_view(line);
     declare_info(line);
     declare_export(line);
     declare_plot_results(line);

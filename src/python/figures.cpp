@@ -7,6 +7,7 @@
 #include "picture/figure_layout.hpp"
 #include "picture/figure_look.hpp"
 #include "picture/interleaved_points.hpp"
+#include "picture/joined_cells.hpp"
 #include "picture/page_line.hpp"
 
 #include <algorithm>
@@ -37,28 +38,6 @@ py::array_t<double> array_of_boxes(const std::vector<PlaneBox>& boxes) {
     for (const PlaneBox& box : boxes)
         numbers.insert(numbers.end(), {box.left, box.right, box.low, box.high});
     return array_of(std::move(numbers), {static_cast<py::ssize_t>(boxes.size()), 4});
-}
-
-const char* style_name(FigureSeries::Style style) {
-    switch (style) {
-    case FigureSeries::Style::dots:
-        return "dots";
-    case FigureSeries::Style::circles:
-        return "circles";
-    case FigureSeries::Style::line:
-        return "line";
-    case FigureSeries::Style::dashed:
-        return "dashed";
-    case FigureSeries::Style::dotted:
-        return "dotted";
-    case FigureSeries::Style::impulses:
-        return "impulses";
-    case FigureSeries::Style::symbols:
-        return "symbols";
-    case FigureSeries::Style::cells:
-        break;
-    }
-    return "cells";
 }
 
 /// The colour with which a style is drawn, as "#0072b2".
@@ -94,7 +73,7 @@ py::tuple piece_of(const Box& box) {
 py::dict piece_of(const FigureSeries& series, bool grey) {
     py::dict object;
     object["title"] = series.title;
-    object["style"] = style_name(series.style);
+    object["style"] = std::string(name_of(series.style));
     object["colour"] = colour_of(series.style, series.colour, grey);
     object["number_of_colour"] = series.colour;
     object["points"] = array_of_points(series.points);
@@ -105,7 +84,7 @@ py::dict piece_of(const FigureSeries& series, bool grey) {
         grey && series.style == FigureSeries::Style::circles ? circle_mark(series.colour) : series.symbol;
     object["line_mark"] = grey && is_line(series.style) ? line_mark(series.colour) : 0;
     object["only_in_legend"] = series.only_in_legend;
-    object["cells"] = array_of_boxes(series.cells);
+    object["cells"] = array_of_boxes(joined_cells(series));
     object["hatch"] = series.style == FigureSeries::Style::cells ? hatch_of(series.colour, series.hatch, grey) : 0;
     return object;
 }
@@ -153,7 +132,7 @@ py::list piece_of(const std::vector<LegendEntry>& legend, bool grey) {
         py::dict object;
         object["title"] = entry.title;
         object["text"] = piece_of(entry.text.empty() ? rich(entry.title) : entry.text);
-        object["style"] = style_name(entry.style);
+        object["style"] = std::string(name_of(entry.style));
         object["colour"] = colour_of(entry.style, entry.colour, grey);
         object["symbol"] =
             grey && entry.style == FigureSeries::Style::circles ? circle_mark(entry.colour) : entry.symbol;

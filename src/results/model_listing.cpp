@@ -86,6 +86,8 @@ std::string model_listing(const Model& model) {
     listing.heading(model.quantities.size(), "quantity", "quantities");
     for (const Quantity& item : model.quantities)
         listing.row({item.name, item.unit, item.text});
+    if (model.drawing)
+        listing.heading(model.drawing->shapes.size(), "drawn shape", "drawn shapes");
     return listing.text();
 }
 

@@ -1,8 +1,17 @@
 #include "graze/base/input_error.hpp"
+#include "graze/base/printable.hpp"
 #include "graze/base/require.hpp"
 #include "results/result_file_state.hpp"
 
+#include <fmt/format.h>
+
 namespace graze {
+
+namespace {
+
+constexpr std::size_t longest_shown = 80; ///< characters of a text in a message
+
+} // namespace
 
 struct ResultFile::Rows::State {
     Statement statement;
@@ -38,6 +47,10 @@ bool ResultFile::Rows::is_integer(std::size_t column) const {
     return state_->statement.type(state_->at(column)) == SQLITE_INTEGER;
 }
 double ResultFile::Rows::number(std::size_t column) const {
+    const int type = state_->statement.type(state_->at(column));
+    if (type == SQLITE_TEXT || type == SQLITE_BLOB) // SQLite would take the digits at its beginning, or 0
+        throw InputError(fmt::format("'{}' is no number", printable_line(shortened(text(column), longest_shown))),
+                         "name a quantity that is one");
     return state_->statement.number(state_->at(column));
 }
 std::int64_t ResultFile::Rows::integer(std::size_t column) const {

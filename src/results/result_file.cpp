@@ -216,11 +216,13 @@ void ResultFile::copy_to(const std::string& path) {
     state_->database.copy_to(path);
 }
 
-std::vector<RunRecord> ResultFile::runs() const {
+/// The runs that a statement selects after `SELECT ... FROM runs`. @param name bound to it; empty: nothing is
+std::vector<RunRecord> ResultFile::read_runs(const std::string& which, const std::string& name) const {
     const Database& database = state_->database;
     std::vector<RunRecord> runs;
-    Statement rows =
-        database.prepare(fmt::format("SELECT {} FROM runs ORDER BY number", listed(kinds_of(run_columns()))));
+    Statement rows = database.prepare(fmt::format("SELECT {} FROM runs {}", listed(kinds_of(run_columns())), which));
+    if (!name.empty())
+        rows.bind(1, std::string_view(name));
     while (rows.step()) {
         RunRecord& run = runs.emplace_back();
         run.file = path();
@@ -233,11 +235,16 @@ std::vector<RunRecord> ResultFile::runs() const {
     return runs;
 }
 
+std::vector<RunRecord> ResultFile::runs() const {
+    return read_runs("ORDER BY number", "");
+}
+
 std::optional<RunRecord> ResultFile::find_run(const std::string& name) const {
-    for (RunRecord& run : runs())
-        if (run.name == name)
-            return std::move(run);
-    return std::nullopt;
+    if (name.empty())
+        return std::nullopt;
+    // Of the others nothing is read: the settings of one alone may have millions of numbers.
+    std::vector<RunRecord> found = read_runs("WHERE name = ? ORDER BY number LIMIT 1", name);
+    return found.empty() ? std::nullopt : std::optional(std::move(found.front()));
 }
 
 void ResultFile::remove_run(const std::string& name) {
@@ -304,6 +311,10 @@ void ResultFile::order_runs(const std::vector<std::string>& names) {
 
 void ResultFile::name_points(const std::string& run, const std::vector<PointName>& names) {
     state_->at_once([&] { write_point_names(state_->database, run, names); });
+}
+
+void ResultFile::replace_model(const std::string& run, const std::string& model) {
+    state_->at_once([&] { state_->database.prepare("UPDATE runs SET model = ? WHERE name = ?").run(model, run); });
 }
 
 void ResultFile::set_note(const std::string& key, const std::string& text) {

@@ -1,5 +1,8 @@
 #include "results/run_query.hpp"
 
+#include "graze/base/input_error.hpp"
+#include "graze/base/printable.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,6 +19,39 @@ bool has_column(const std::vector<RunColumn>& columns, const std::string& name) 
 
 bool has_column(const std::vector<ResultColumn>& columns, const std::string& name) {
     return std::ranges::find(columns, name, &ResultColumn::name) != columns.end();
+}
+
+[[noreturn]] void refuse_expression(const std::string& text, std::string_view reason) {
+    throw InputError(fmt::format("'{}' {}", printable_line(shortened(text, 200)), reason),
+                     "give a name of the run, or one expression in such names");
+}
+
+/// The end of what begins with a quotation mark or a bracket of SQL at this place: a text or a name.
+std::size_t end_of_quoted(const std::string& text, std::size_t begin) {
+    const char mark = text[begin] == '[' ? ']' : text[begin];
+    const std::size_t end = text.find(mark, begin + 1);
+    if (end == std::string::npos)
+        refuse_expression(text, "ends within a quoted text");
+    return end;
+}
+
+/// Refuses what would end the place of an expression within a statement, so that no other rows than those of the run
+/// are read.
+void require_one_expression(const std::string& text) {
+    int open = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const std::string_view two = std::string_view(text).substr(i, 2);
+        if (std::string_view("'\"`[").find(text[i]) != std::string_view::npos)
+            i = end_of_quoted(text, i);
+        else if (text[i] == ';' || text[i] == '\0' || two == "--" || two == "/*")
+            refuse_expression(text, "is more than one expression");
+        else if (text[i] == '(')
+            ++open;
+        else if (text[i] == ')' && --open < 0)
+            break;
+    }
+    if (open != 0)
+        refuse_expression(text, "has brackets that do not match");
 }
 
 } // namespace
@@ -44,7 +80,10 @@ std::string RunQuery::quantity(const std::string& name) const {
         return fmt::format("(SELECT sqrt(m.real * m.real + m.imaginary * m.imaginary) FROM multipliers AS m WHERE "
                            "m.run = {} AND m.point = p.number AND m.position = 0)",
                            text_literal(run_->name));
-    return has_column(tables_.point_columns, name) ? "p." + quoted_name(name) : name;
+    if (has_column(tables_.point_columns, name))
+        return "p." + quoted_name(name);
+    require_one_expression(name);
+    return fmt::format("({})", name);
 }
 
 std::string RunQuery::tables(bool with_samples, bool all) const {

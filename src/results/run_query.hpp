@@ -18,7 +18,8 @@ public:
 
     /// A column that every run has; the one of samples if rows are samples and both tables have it.
     std::string column(const std::string& name, bool with_samples) const;
-    /// A coordinate, value or column of this name; any other text is kept as an SQL expression.
+    /// A coordinate, value or column of this name; any other text is an SQL expression, which is put into brackets.
+    /// @throws InputError if the text is no single expression
     std::string quantity(const std::string& name) const;
     /// A value, also if a coordinate has the same name.
     std::string value(const std::string& name) const;

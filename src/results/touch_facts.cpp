@@ -135,7 +135,7 @@ void add_verdict(TouchRows& facts, const Touched& found) {
         case GrazingOutcome::persists:
             return "an attractor remains beside the touch";
         case GrazingOutcome::lost:
-            return "no attractor remains: it trips";
+            return "no attractor remains near the grazing orbit";
         case GrazingOutcome::folds:
             return "the orbit remains up to a fold";
         case GrazingOutcome::undecided:

@@ -64,7 +64,7 @@ void describe_bench(Fields& fields, Bench& bench) {
         fields.field("model", text);
         bench.model = parse_model(text, "model of a bench");
     } else if constexpr (Fields::stored) {
-        fields.field("model", write_model(bench.model));
+        fields.field("model", write_equations(bench.model));
     }
     describe_fields(fields, "parameter", bench.parameter, "levels", bench.levels, "directions", bench.directions);
     fields.count(key_in_table("repeats"), bench.repeats, {1, 10'000});

@@ -10,6 +10,8 @@ namespace graze {
 constexpr double most_points = 1e9;
 /// Points that begin by themselves, of each of which something is kept in memory.
 constexpr double most_rows = 2e7;
+/// Runs of a study, each of which is in memory with its model, and has tables of its own in the result file.
+constexpr std::size_t most_runs = 10'000;
 /// Values along one axis.
 constexpr std::size_t most_values = 10'000'000;
 /// Samples of a record that a virtual bench makes, which are in memory.

@@ -2,6 +2,7 @@
 
 #include "graze/model/named_value.hpp"
 #include "graze/results/name_advice.hpp"
+#include "graze/results/query_interruption.hpp"
 #include "graze/study/stored_study.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "graze/trajectory/observer.hpp"
@@ -34,7 +35,7 @@ PointRecord chosen_point(const StoredRun& run, const std::vector<std::pair<std::
 
 namespace {
 
-constexpr std::size_t most_samples_of_point = 1'000'000;
+constexpr std::size_t most_rows = 1'000'000, most_values = 16'000'000;
 /// A step of high order covers a good part of an oscillation; the curve is thinned out again before it is drawn.
 constexpr int points_of_step = 32, fewest_points = 2;
 
@@ -42,10 +43,12 @@ constexpr int points_of_step = 32, fewest_points = 2;
 class DenseRecorder : public Observer {
 public:
     DenseRecorder(Function values, std::span<const double> parameters, std::vector<double> periods,
-                  std::vector<bool> marked, WhenLong when_long)
+                  std::vector<bool> marked, WhenLong when_long, std::size_t mode, std::function<bool()> interrupted)
         : values_(std::move(values)), periods_(std::move(periods)), marked_(std::move(marked)), when_long_(when_long),
-          columns_(values_.outputs() + 1), parameters_(parameters.begin(), parameters.end()),
-          work_(values_.workspace()), row_(values_.outputs()) {}
+          interrupted_(std::move(interrupted)), columns_(values_.outputs() + 1),
+          parameters_(parameters.begin(), parameters.end()), work_(values_.workspace()), row_(values_.outputs()) {
+        motion_.modes.push_back(mode);
+    }
 
     void step(const Step& step) override {
         state_.resize(periods_.size());
@@ -56,7 +59,7 @@ public:
             add(step.start + s);
         }
         new_arc_ = false;
-        if (rows() > most_samples_of_point)
+        if (rows() > std::min(most_rows, most_values / columns_.size()))
             make_room();
     }
     void contact(const Contact& contact) override {
@@ -64,15 +67,20 @@ public:
             return;
         for (const bool after : {false, true}) {
             const std::span<const double> side = after ? contact.after : contact.before;
-            if (after)
+            if (after) {
                 motion_.begins.push_back(rows());
-            if (marked_[contact.event])
+                motion_.modes.push_back(contact.mode_after);
+            }
+            if (marked_[contact.event]) {
                 motion_.impacts.push_back(rows());
+                motion_.met.push_back(contact.event);
+            }
             state_.assign(side.begin(), side.end());
             add(contact.time);
         }
         new_arc_ = false;
     }
+    bool stop() override { return QueryInterruption::requested() || (interrupted_ && interrupted_()); }
     /// Time first, then the values.
     DenseMotion take() {
         motion_.start = columns_[0].empty() ? 0 : columns_[0].front();
@@ -108,8 +116,14 @@ private:
                 needed[place] = needed[place] || thin;
             std::erase_if(places, [&](std::size_t place) { return !needed[place]; });
         };
+        const std::size_t arcs = motion_.begins.size(), impacts = motion_.impacts.size();
         keep(motion_.begins);
         keep(motion_.impacts);
+        // Those that are gone are the first ones.
+        motion_.modes.erase(motion_.modes.begin(),
+                            motion_.modes.begin() + static_cast<std::ptrdiff_t>(arcs - motion_.begins.size()));
+        motion_.met.erase(motion_.met.begin(),
+                          motion_.met.begin() + static_cast<std::ptrdiff_t>(impacts - motion_.impacts.size()));
         std::vector<std::size_t> places(rows() + 1, 0);
         for (std::size_t i = 0; i < rows(); ++i)
             places[i + 1] = places[i] + (needed[i] ? 1 : 0);
@@ -129,6 +143,7 @@ private:
     std::vector<double> periods_, state_;
     std::vector<bool> marked_;
     WhenLong when_long_;
+    std::function<bool()> interrupted_;
     std::vector<std::vector<double>> columns_;
     std::vector<double> parameters_, inputs_, work_, row_;
     DenseMotion motion_;
@@ -159,7 +174,7 @@ bool is_met_by_motion(const Model& model, const Event& event) {
 }
 
 DenseMotion dense_motion(const StoredRun& run, const PointRecord& point, const std::vector<std::string>& names,
-                         const Place& place, WhenLong when_long) {
+                         const Place& place, WhenLong when_long, const std::function<bool()>& interrupted) {
     Model model = run.model;
     std::vector<double> state = point.result.state;
     std::size_t mode = point.result.mode;
@@ -197,12 +212,19 @@ DenseMotion dense_motion(const StoredRun& run, const PointRecord& point, const s
     for (const Event& event : model.events)
         marked.push_back(event.kind == EventKind::barrier && is_met_by_motion(model, event));
     DenseRecorder recorder(simulation.system().function_of(values), parameters, model.periods(), std::move(marked),
-                           when_long);
+                           when_long, mode, interrupted);
     Trajectory trajectory(simulation, parameters, borrowed(recorder));
     trajectory.start(state, mode, 0, duration);
     JetSet jets(simulation, LaneKind::single);
     graze::run(trajectory, jets);
     DenseMotion motion = recorder.take();
+    motion.outcome = trajectory.outcome();
+    // It is computed up to the time at which the stored one ended, of its own or after what it had to count.
+    const Outcome& stored = point.result.outcome;
+    if (!settled && motion.outcome.ending == Ending::end_time && stored.ending != Ending::stopped) {
+        motion.outcome.ending = stored.ending;
+        motion.outcome.detail = stored.detail;
+    }
     std::vector<std::vector<double>> columns;
     for (std::size_t i = 0; i < names.size(); ++i) {
         columns.push_back(motion.values[names[i] == "t" ? 0 : i + 1]);

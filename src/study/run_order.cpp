@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 namespace graze {
@@ -107,24 +108,29 @@ std::set<std::string> wanted_runs(const Study& study, const std::vector<std::str
 
 std::vector<StudyRun> in_order(std::vector<StudyRun> runs) {
     const std::vector<std::string> names = names_of(runs);
-    for (const StudyRun& run : runs)
-        for (const auto& [need, place] : run.needs())
+    std::vector<std::vector<std::size_t>> needs(runs.size()); // a study may have ten thousand runs
+    for (std::size_t r = 0; r < runs.size(); ++r)
+        for (const auto& [need, place] : runs[r].needs()) {
             require_run(need, names, place);
+            needs[r].push_back(static_cast<std::size_t>(std::ranges::find(names, need) - names.begin()));
+        }
+    std::vector<std::size_t> left(runs.size());
+    std::iota(left.begin(), left.end(), std::size_t{0});
+    std::vector<bool> is_done(runs.size());
     std::vector<StudyRun> ordered;
-    const auto is_done = [&](const auto& need) {
-        return std::any_of(ordered.begin(), ordered.end(), [&](const StudyRun& run) { return run.name == need.first; });
-    };
-    while (!runs.empty()) {
-        const auto next = std::find_if(runs.begin(), runs.end(), [&](const StudyRun& run) {
-            const auto needs = run.needs();
-            return std::all_of(needs.begin(), needs.end(), is_done);
+    while (!left.empty()) {
+        const auto next = std::ranges::find_if(left, [&](std::size_t run) {
+            return std::ranges::all_of(needs[run], [&](std::size_t need) { return is_done[need]; });
         });
-        if (next == runs.end())
-            throw InputError(runs.front().needs().front().second,
-                             fmt::format("run '{}' starts from itself, by way of others", runs.front().name),
+        if (next == left.end()) {
+            const StudyRun& run = runs[left.front()];
+            throw InputError(run.needs().front().second,
+                             fmt::format("run '{}' starts from itself, by way of others", run.name),
                              "let one of them start by itself");
-        ordered.push_back(std::move(*next));
-        runs.erase(next);
+        }
+        is_done[*next] = true;
+        ordered.push_back(std::move(runs[*next]));
+        left.erase(next);
     }
     return ordered;
 }

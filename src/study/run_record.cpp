@@ -67,8 +67,10 @@ RunRecord record_of(const StudyRun& run, const std::string& parent_fingerprint, 
     record.model = write_model(run.model);
     record.settings = settings_of(run);
     record.version = GRAZE_VERSION;
-    record.fingerprint = fingerprint_of(
-        fmt::format("{} {} {} {}", version_of_algorithms, record.model, record.settings, parent_fingerprint));
+    // Numbers do not depend on the drawing: results stay those of the run when it changes.
+    record.fingerprint = fingerprint_of(fmt::format("{} {} {} {}", version_of_algorithms,
+                                                    run.model.drawing ? write_equations(run.model) : record.model,
+                                                    record.settings, parent_fingerprint));
     if (run.is_branch())
         add_found_parameters(run, record);
     if (run.kind == RunKind::record && !run.record().coordinate.empty())

@@ -83,6 +83,8 @@ bool lacks_orbits(const RunRecord& run, const ResultFile& file) {
 bool is_done(const RunRecord& record, ResultFile& file) {
     const auto stored = file.find_run(record.name);
     const bool same = stored && stored->fingerprint == record.fingerprint && has_columns_of(*stored, record);
+    if (same && stored->model != record.model) // which differ in their drawing only
+        file.replace_model(record.name, record.model);
     if (same && (stored->status == RunStatus::complete || lacks_orbits(*stored, file)))
         return true;
     if (!same || record.is_branch())

@@ -1,16 +1,20 @@
 #include "graze/study/study.hpp"
 
+#include "base/letter_case.hpp"
 #include "graze/base/file_name.hpp"
 #include "graze/base/printable.hpp"
 #include "graze/base/text_file.hpp"
+#include "graze/results/query_interruption.hpp"
 #include "graze/study/further_runs.hpp"
 #include "results/schema.hpp"
+#include "study/point_limits.hpp"
 #include "study/start_point.hpp"
 #include "study/study_reader.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 namespace graze {
 
@@ -202,25 +206,47 @@ private:
             });
     }
 
-    void read_runs() {
-        for (const TomlEntry& entry : run_entries_)
-            mistakes_.attempt([&] {
-                if (std::ranges::find(names_, entry.name) != names_.end())
-                    throw InputError(entry.place, fmt::format("there is a run '{}' already", entry.name),
-                                     "choose another name");
-                names_.push_back(entry.name);
-            });
+    /// Notes the names of runs before any run is read, which may name those that follow.
+    void name_runs() {
         mistakes_.attempt([&] {
             if (run_entries_.empty())
                 throw InputError(runs_->place, "the study has no runs", "add a table [runs.NAME]");
         });
+        require_all(names_.size() + run_entries_.size() <= most_runs, runs_->place,
+                    fmt::format("the study has more than {} runs", most_runs), "make several studies");
+        std::set<std::string> there(names_.begin(), names_.end());
         for (const TomlEntry& entry : run_entries_)
+            mistakes_.attempt([&] {
+                if (!there.insert(entry.name).second)
+                    throw InputError(entry.place, fmt::format("there is a run '{}' already", entry.name),
+                                     "choose another name");
+                names_.push_back(entry.name);
+            });
+    }
+
+    /// Ends the reading unless something holds, since going on would take long.
+    void require_all(bool holds, const Place& place, const std::string& problem, const std::string& remedy) {
+        if (holds)
+            return;
+        mistakes_.attempt([&] { throw InputError(place, problem, remedy); });
+        mistakes_.throw_noted();
+    }
+
+    void read_runs() {
+        name_runs();
+        constexpr std::size_t most_values_of_all = 20'000'000; // of all runs, which are in memory at once
+        for (const TomlEntry& entry : run_entries_) {
+            require_all(!QueryInterruption::requested(), entry.place, "the reading of the study was interrupted",
+                        "ask again, or make several studies of it");
             mistakes_.attempt([&] { add_run(entry); });
+            require_all(values_ <= most_values_of_all, entry.place,
+                        fmt::format("the study varies things through more than {} values", most_values_of_all),
+                        "take larger steps, or make several studies");
+        }
         const bool all = mistakes_.none();
         if (all)
             mistakes_.attempt([&] { check_given(study_); });
-        for (const StudyRun& run : study_.runs)
-            mistakes_.attempt([&] { require_free_name(run.name, run.is_branch(), names_, run.place); });
+        check_names();
         if (all)
             mistakes_.attempt([&] { check_order(); });
         for (const StudyRun& run : study_.runs)
@@ -237,6 +263,16 @@ private:
                 mistakes_.attempt([&] { check_start(reader_, run, *parent, keys_[run.name]); });
     }
 
+    /// Each name against those that could be its likes, rather than against all.
+    void check_names() {
+        std::map<std::string, std::vector<std::string>> alike;
+        for (const std::string& name : names_)
+            alike[in_small_letters(name)].push_back(name);
+        for (const StudyRun& run : study_.runs)
+            mistakes_.attempt(
+                [&] { require_free_name(run.name, run.is_branch(), alike[in_small_letters(run.name)], run.place); });
+    }
+
     void add_run(const TomlEntry& entry) {
         std::optional<StudyRun> run = read_run(reader_, entry, defaults_, keys_[entry.name]);
         if (!run)
@@ -244,14 +280,6 @@ private:
         if (run->has_motions())
             for (const Variation& axis : run->motion().axes)
                 values_ += axis.values.size();
-        constexpr std::size_t most = 20'000'000; // of all runs, which are in memory at once
-        if (values_ > most) {
-            mistakes_.attempt([&] {
-                throw InputError(entry.place, fmt::format("the study varies things through more than {} values", most),
-                                 "take larger steps, or make several studies");
-            });
-            mistakes_.throw_noted();
-        }
         study_.runs.push_back(std::move(*run));
     }
 
@@ -324,20 +352,27 @@ StudyPicture parse_picture(std::string_view text, const std::string& name, const
 }
 
 bool is_study_text(std::string_view text, const std::string& file) {
-    return parse_toml(text, file).contains("runs");
+    return parse_toml(text, file,
+                      "docs/study-format.md shows how a study is written, docs/model-format.md shows a model")
+        .contains("runs");
+}
+
+std::vector<std::string> input_files(const StudyRun& run) {
+    std::vector<std::string> files;
+    if (!run.model_path.empty())
+        files.push_back(run.model_path);
+    if (run.is_branch() && !run.branch().table.empty())
+        files.push_back(run.branch().table);
+    if (run.kind == RunKind::record)
+        for (const RecordInput& input : run.record().inputs)
+            files.push_back(input.path);
+    return files;
 }
 
 std::vector<std::string> input_files(const Study& study) {
     std::vector<std::string> files{study.file};
-    for (const StudyRun& run : study.runs) {
-        if (!run.model_path.empty())
-            files.push_back(run.model_path);
-        if (run.is_branch() && !run.branch().table.empty())
-            files.push_back(run.branch().table);
-        if (run.kind == RunKind::record)
-            for (const RecordInput& input : run.record().inputs)
-                files.push_back(input.path);
-    }
+    for (const StudyRun& run : study.runs)
+        std::ranges::move(input_files(run), std::back_inserter(files));
     return files;
 }
 

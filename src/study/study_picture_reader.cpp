@@ -14,6 +14,8 @@ namespace {
 
 constexpr double least_size = 40, greatest_size = 1000; ///< mm
 constexpr double least_font = 4, greatest_font = 72;    ///< points
+/// A picture of more would be unreadable, and as text of many megabytes too long for a page.
+constexpr std::size_t most_axes = 50, most_runs_shown = 500;
 
 void require_between(double value, double least, double greatest, const char* what, const char* unit,
                      const Place& place) {
@@ -63,6 +65,12 @@ void read_font(const StudyReader& reader, const TomlEntry& entry, StudyPicture& 
 std::vector<std::string> picture_kinds() {
     return {"bifurcation", "branch",   "basin",      "map",     "history",  "portrait",
             "poincare",    "spectrum", "regression", "scatter", "residuals"};
+}
+
+void require_few(std::size_t count, std::size_t most, const char* what, const TomlEntry& entry) {
+    if (count > most)
+        throw InputError(entry.place, fmt::format("{} has {} {}", entry.path, count, what),
+                         fmt::format("show {} at most", most));
 }
 
 /// One point, or a list of points, each given by one coordinate.
@@ -135,6 +143,8 @@ StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry) {
         if (entry.node->is_table())
             check_keys_of_picture(reader, picture.kind, reader.toml().entries(reader.toml().table(entry), entry.path));
     });
+    mistakes.attempt([&] { require_few(picture.y.size(), most_axes, "vertical axes", entry); });
+    mistakes.attempt([&] { require_few(picture.runs.size() + picture.over.size(), most_runs_shown, "runs", entry); });
     mistakes.throw_noted();
     if (picture.runs.empty())
         throw InputError(entry.place, fmt::format("{} shows no run", entry.path), "give run = \"NAME\"");

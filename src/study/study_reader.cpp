@@ -4,6 +4,7 @@
 #include "graze/base/file_name.hpp"
 #include "graze/base/printable.hpp"
 #include "graze/base/rounded.hpp"
+#include "graze/model/catalogue.hpp"
 #include "graze/results/name_advice.hpp"
 
 #include <fmt/format.h>
@@ -126,6 +127,20 @@ const Model* StudyReader::given_model(const std::string& name) const {
         return nullptr;
     const auto found = models_->find(name);
     return found == models_->end() ? nullptr : &found->second;
+}
+
+const Model& StudyReader::loaded_model(const std::string& name_or_path) const {
+    const auto [found, is_new] = loaded_.try_emplace(name_or_path);
+    Loaded& one = found->second;
+    if (is_new)
+        try {
+            one.model = load_model(name_or_path);
+        } catch (const InputError&) {
+            one.failure = std::current_exception();
+        }
+    if (one.failure)
+        std::rethrow_exception(one.failure);
+    return one.model;
 }
 
 const Model& StudyReader::no_model() {

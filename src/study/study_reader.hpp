@@ -8,6 +8,7 @@
 #include "model/model_file_toml.hpp"
 #include "study/run_key.hpp"
 
+#include <exception>
 #include <map>
 #include <optional>
 #include <span>
@@ -27,6 +28,9 @@ public:
     const std::string& file() const { return file_; }
     /// The model that the study was given under this name; null if there is none.
     const Model* given_model(const std::string& name) const;
+    /// A model of the catalogue or of a file, which is read once however many runs have it.
+    /// @throws InputErrors, InputError as load_model, each time
+    const Model& loaded_model(const std::string& name_or_path) const;
 
     /// A number, or an expression in the model's parameters.
     double number(const Model& model, const TomlEntry& entry) const;
@@ -98,6 +102,11 @@ private:
     TomlReader toml_;
     std::string file_;
     const NamedModels* models_;
+    struct Loaded {
+        Model model;
+        std::exception_ptr failure; ///< null: there is none
+    };
+    mutable std::map<std::string, Loaded> loaded_; ///< one thread reads a study
 };
 
 /// Settings of a study that hold for all of its runs.

@@ -31,7 +31,7 @@ Model model_of(const StudyReader& reader, const std::string& name, const Place& 
                ? (std::filesystem::path(reader.file()).parent_path() / name).string()
                : name;
     try {
-        Model model = load_model(path);
+        Model model = reader.loaded_model(path);
         if (!of_file)
             path.clear();
         return model;

@@ -16,6 +16,7 @@ void defective_models(WrongUses& wrong) {
         wrong.spoiled<Model>(oscillator, {{"validate", [](Model& m) { m.validate(); }},
                                           {"system", [](Model& m) { keep(System(m)); }},
                                           {"write_model", [](Model& m) { keep(write_model(m)); }},
+                                          {"write_equations", [](Model& m) { keep(write_equations(m)); }},
                                           {"model_warnings", [](Model& m) { keep(model_warnings(m)); }},
                                           {"connectivity_graph", [](Model& m) { keep(connectivity_graph(m)); }}});
     model("no_graph", [](Model& m) { m.graph = nullptr; });

@@ -13,9 +13,10 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-const std::vector<std::string> commands{"check",  "models", "simulate", "run",   "info",    "export",    "plot",
-                                        "points", "orbit",  "grazing",  "trip",  "ladder",  "tolerance", "design",
-                                        "layout", "record", "identify", "bench", "acquire", "help",      "completion"};
+const std::vector<std::string> commands{"check",     "models", "simulate",   "run",     "info",     "export",
+                                        "plot",      "points", "orbit",      "grazing", "trip",     "ladder",
+                                        "tolerance", "design", "layout",     "record",  "identify", "bench",
+                                        "acquire",   "help",   "completion", "view"};
 
 /// The output of a shell command.
 std::string printed_by(const std::string& command) {

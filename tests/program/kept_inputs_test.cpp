@@ -87,7 +87,7 @@ const char* const small_study = "name = \"s\"\nmodel = \"bouncing-ball\"\n[runs.
                                 "sample = { a = { maxima = \"x\" } }\n[pictures.p]\nkind = \"history\"\nrun = \"r\"\n"
                                 "format = \"svg\"\n[tables.t]\nrun = \"r\"\ncolumns = [\"time\"]\n";
 
-/// Such inputs for each command that writes into a folder; none if the command reads nothing.
+/// Such inputs for each command that writes into a folder; none if the command writes nothing over them.
 std::map<std::string, std::vector<InputInFolder>> inputs_in_folders() {
     const std::string source = source_folder;
     const std::string design = contents(source + "/designs/mems-switch-device.toml"),
@@ -99,6 +99,7 @@ std::map<std::string, std::vector<InputInFolder>> inputs_in_folders() {
         {"acquire",
          {{"manifest.txt", experiment, {"--port", "nowhere", "--device", "tcp:127.0.0.1:1"}},
           {"settings.txt", experiment, {"--port", "nowhere", "--device", "tcp:127.0.0.1:1"}}}},
+        {"view", {}}, // it writes a result file only, when it is asked to compute
         {"help", {}},
     };
 }

@@ -10,11 +10,9 @@
 #include <numbers>
 #include <tuple>
 
-namespace graze::testing {
+namespace graze::testing::plot_results_test {
 
 using ::testing::HasSubstr;
-
-namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr const char* model_text = "[parameters]\na = 1\nb = 0\n[states]\nx = 1\ny = 0\n[modes.only.rates]\nx = \"y\"\n"
@@ -87,8 +85,6 @@ protected:
     Folder folder;
     std::string path;
 };
-
-} // namespace
 
 TEST_F(PlotResults, ShowsBothDirectionsOfASweepWithChangesOfPeriod) {
     write_sweep();
@@ -187,13 +183,14 @@ TEST_F(PlotResults, MapsAttractorsOverTwoParametersInBothDirections) {
     ASSERT_EQ(up.series.size(), 2U);
     EXPECT_EQ(up.series[0].title, "period 1 (6)");
     EXPECT_EQ(up.series[1].title, "period 2 (6)");
-    ASSERT_EQ(up.series[0].cells.size(), 3U); // adjacent cells in a row are joined
+    ASSERT_EQ(up.series[0].cells.size(), 6U);
+    EXPECT_EQ(up.series[0].numbers, (std::vector<std::size_t>{0, 1, 4, 5, 8, 9}));
     EXPECT_EQ(up.series[0].cells[0].left, -0.5);
-    EXPECT_EQ(up.series[0].cells[0].right, 1.5);
+    EXPECT_EQ(up.series[0].cells[1].right, 1.5);
     EXPECT_EQ(up.series[0].cells[0].low, 9.5);
     EXPECT_EQ(up.series[0].cells[0].high, 10.5);
-    EXPECT_EQ(up.series[1].cells[2].right, 3.5);
-    EXPECT_EQ(up.series[1].cells[2].high, 12.5);
+    EXPECT_EQ(up.series[1].cells[5].right, 3.5);
+    EXPECT_EQ(up.series[1].cells[5].high, 12.5);
     ASSERT_EQ(down.series.size(), 3U);
     EXPECT_EQ(down.series[0].title, "period 1 (3)");
     EXPECT_EQ(down.series[1].title, "escaped (3)");
@@ -394,4 +391,4 @@ TEST_F(PlotResults, ReportsUnknownNames) {
     EXPECT_FALSE(std::filesystem::exists(folder / "no.png"));
 }
 
-} // namespace graze::testing
+} // namespace graze::testing::plot_results_test

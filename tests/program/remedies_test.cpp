@@ -83,9 +83,10 @@ std::vector<Text> texts() {
 /// The help of each command, by its name.
 std::map<std::string, std::string> commands() {
     std::map<std::string, std::string> result;
-    for (const char* name : {"models", "check",   "simulate",  "run",    "points", "orbit",  "grazing",
-                             "trip",   "ladder",  "tolerance", "design", "layout", "record", "identify",
-                             "bench",  "acquire", "export",    "plot",   "info",   "help",   "completion"}) {
+    for (const char* name :
+         {"models", "check",     "simulate", "run",    "points",     "orbit",    "grazing", "trip",
+          "ladder", "tolerance", "design",   "layout", "record",     "identify", "bench",   "acquire",
+          "export", "plot",      "info",     "help",   "completion", "view"}) {
         const std::string help = done(std::string(name) + " --help");
         result[name] = help;
     }

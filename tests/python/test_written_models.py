@@ -83,7 +83,21 @@ def written(data, made):
     for name, item in data.get("quantities", {}).items():
         fields = fields_of(item, "value")
         parts["quantities"][name] = graze.Quantity(made(fields.pop("value")), **fields)
+    if "drawing" in data:
+        parts["drawing"] = drawn(data["drawing"], made)
     return graze.Model(**parts)
+
+
+def drawn(data, made):
+    def pair(value):
+        return tuple(pair(one) if isinstance(one, list) else made(one) for one in value)
+
+    def shape(data):
+        return {key: pair(value) if isinstance(value, list) and key != "modes"
+                else made(value) if key == "radius" else value for key, value in data.items()}
+
+    return {"text": data["text"], "x": pair(data["x"]), "y": pair(data["y"]),
+            "shapes": [shape(one) for one in data["shapes"]]}
 
 
 def assert_same_data(one, other, names, path=""):
@@ -160,6 +174,10 @@ def test_the_example_of_the_format_can_be_said():
         ],
         sections={"phase0": graze.Section(state=theta, value=0), "highest": graze.Section(v, direction="falling")},
         quantities={"energy": graze.Quantity(v**2/2 + g*x, unit="J/kg", text="energy of the ball per mass")},
+        drawing={"text": "a ball on a vibrating table", "x": (-0.06, 0.06), "y": [-3*a, 0.08], "shapes": [
+            {"kind": "line", "from": (-0.04, table), "to": (0.04, table)},
+            {"kind": "circle", "at": [0, x + 0.004], "radius": 0.004, "colour": "blue"},
+            {"kind": "text", "at": (0, -0.025), "text": "at rest", "modes": ["rest"]}]},
     )
     assert str(model) == str(graze.Model(text=example_of_the_format()))
     assert model.check() == ()
@@ -370,6 +388,16 @@ WRONG = {
                             ' add graze.Transition("contact", mode="a")'),
     "two transitions": (lambda: ball(transitions=[T("contact"), T("contact")]),
                         "transitions[1]: there is a second transition for event 'contact' in the model; write one with"),
+    "a drawing in a list": (lambda: ball(drawing=[1]), "drawing: [1] is no dict; give a dict, as in"),
+    "a drawing without limits": (lambda: ball(drawing={"x": (0, 1), "shapes": []}), "the drawing has no limits in y"),
+    "a shape without kind": (lambda: ball(drawing={"x": (0, 1), "y": (0, 1), "shapes": [{"at": (x, 0)}]}),
+                             "drawing['shapes'][0]: drawing['shapes'][0] has no kind"),
+    "a shape of an unknown name": (
+        lambda: ball(drawing={"x": (0, 1), "y": (0, 1), "shapes": [{"kind": "circle", "at": ("y", 0), "radius": 1}]}),
+        "drawing['shapes'][0]['at']: unknown name 'y'"),
+    "a colour that is a number": (lambda: ball(drawing={"shapes": [{"kind": "circle", "colour": 3}]}),
+                                  "drawing['shapes'][0]['colour']: it is no text"),
+    "limits that are no numbers": (lambda: ball(drawing={"x": (0, None)}), "drawing['x']: None is neither a number"),
     "an unknown event": (lambda: ball(transitions=[T("contakt")]), "transitions[0].event: there is no event 'contakt'"),
     "events in a list": (lambda: ball(events=["contact"]), "is no dict; give a dict from names to functions"),
     "an unknown kind": (lambda: ball(events={"contact": graze.Event(x, kind="wall")}), "events['contact'].kind: "),

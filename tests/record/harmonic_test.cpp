@@ -11,7 +11,6 @@
 namespace graze::testing::harmonic_test {
 
 constexpr double turn = 2 * std::numbers::pi;
-}
 
 TEST(Harmonic, FindsTheCoefficientsOfASine) {
     const double w = turn * 6.1;

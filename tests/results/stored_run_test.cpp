@@ -160,4 +160,28 @@ TEST_F(StoredRunTest, RunsOnlyOneQuery) {
     EXPECT_EQ(file_->runs().size(), 1u);
 }
 
+TEST_F(StoredRunTest, ReadsOneExpressionOfItsOwnRows) {
+    const std::string of_others = "number FROM runs p";
+    const std::vector<std::string> wrong{of_others + " --",
+                                         of_others + "; ",
+                                         of_others + "/*",
+                                         "omega AS e",
+                                         "1, 2",
+                                         "omega) FROM (SELECT 1 AS omega",
+                                         "(1",
+                                         "1)",
+                                         ")(",
+                                         "'a",
+                                         std::string("omega\0", 6)};
+    for (const std::string& text : wrong)
+        EXPECT_THROW(run().rows({.quantities = {text}}), InputError) << text;
+    EXPECT_THAT(column(run().rows({.quantities = {"max(omega, (1.5))"}}), 0), ElementsAre(1.5, 2, 2, 1.5));
+    EXPECT_THAT(column(run().rows({.quantities = {"length('a;--(''/*')"}}), 0), ElementsAre(8, 8, 8, 8));
+}
+
+TEST_F(StoredRunTest, TakesNoTextForANumber) {
+    EXPECT_THROW(column(run().rows({.quantities = {"'12abc'"}}), 0), InputError);
+    EXPECT_THROW(run().extent("'abc' || omega"), InputError);
+}
+
 } // namespace graze::stored_run_test

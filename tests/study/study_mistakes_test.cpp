@@ -1,10 +1,12 @@
 // All mistakes of a study are told at once, in the order of the file, and none that only follows from another.
 
 #include "graze/base/input_errors.hpp"
+#include "graze/results/query_interruption.hpp"
 #include "graze/study/study.hpp"
 
 #include "study_fixture.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <string>
@@ -100,6 +102,32 @@ TEST(StudyMistakes, OfTheModelOrItsNameAreReportedOnce) {
                 ElementsAre("3: unknown name 'y'", HasSubstr("4: ")));
     EXPECT_THAT(mistakes_in("name = 3\nmodel = 4\n" + runs),
                 ElementsAre("1: name must be a string, not a number", "2: model must be a string, not a number"));
+}
+
+TEST(StudyMistakes, AreMoreRunsThanAStudyCanHave) {
+    std::string text = head;
+    for (int run = 0; run <= 10'000; ++run)
+        text += fmt::format("[runs.r{}]\nkind = \"simulate\"\ntime = 1\n", run);
+    EXPECT_THAT(mistakes_in(text), ElementsAre(HasSubstr("more than 10000 runs")));
+}
+
+TEST(StudyMistakes, ReadingEndsWhenItIsAskedTo) {
+    int asked = 0;
+    const QueryInterruption interruption([&] { return ++asked > 2; });
+    std::string text = head;
+    for (int run = 0; run < 10; ++run)
+        text += fmt::format("[runs.r{}]\nkind = \"simulate\"\ntime = 1\n", run);
+    EXPECT_THAT(mistakes_in(text), ElementsAre(HasSubstr("9: the reading of the study was interrupted")));
+}
+
+TEST(StudyMistakes, OfTheTextAsSuchTellTheFormatOfStudies) {
+    try {
+        is_study_text("name = \n", "s.toml");
+        ADD_FAILURE();
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.remedy(), HasSubstr("docs/study-format.md"));
+    }
+    EXPECT_THAT(mistakes_in(head + std::string("# a\0b\n", 6)), ElementsAre("3: the text has a zero byte"));
 }
 
 TEST(StudyMistakes, OfMissingKeysAreNotReportedBesideAMisspeltKey) {

@@ -62,6 +62,17 @@ TEST(PictureStyle, RefusesSizesThatCannotBeDrawn) {
     EXPECT_NE(problem_of("x_label = 3"), "");
 }
 
+TEST(StudyPicture, HasAFewAxesOnly) {
+    const auto axes = [](int count) {
+        std::string list;
+        for (int i = 0; i < count; ++i)
+            list += "\"x\", ";
+        return "y = [" + list + "]";
+    };
+    EXPECT_EQ(picture_with(axes(50)).y.size(), 50U);
+    EXPECT_THROW(picture_with(axes(51)), InputError);
+}
+
 TEST(PictureStyle, IsPartOfThePicturesSettings) {
     const std::string usual = settings_of(picture_with(""));
     for (const char* keys : {"size = 85", "size = [170, 85]", "font = 8", "font = \"Times\"", "x_label = \"a\"",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "graze/model/drawing.hpp"
 #include "graze/model/parameter_id.hpp"
 #include "graze/model/state_map.hpp"
 #include "graze/symbolic/expression.hpp"
@@ -122,6 +123,7 @@ struct ModelItems {
     std::vector<Section> sections;
     std::vector<Symmetry> symmetries;
     std::vector<Quantity> quantities;
+    std::optional<ModelDrawing> drawing;
     std::size_t initial_mode = 0;
 };
 

@@ -16,5 +16,7 @@ Model read_model(const std::string& path);
 /// Returns the text of a model file that reads back to the same model.
 /// @throws InputError when the model is not valid
 std::string write_model(const Model& model);
+/// Returns the same without the drawing: all that numbers depend on.
+std::string write_equations(const Model& model);
 
 } // namespace graze

@@ -2,9 +2,11 @@
 
 #include "graze/study/figure_style.hpp"
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -33,7 +35,22 @@ struct FigureSeries {
     std::vector<double> along{};        ///< for lines: arclength of each point, for smoothing; empty: straight lines
     std::vector<std::size_t> corners{}; ///< indices of points at which a smoothed line may have a corner
     int hatch = 0;                      ///< for cells: number of gnuplot's fill pattern; 0: solid
+    std::string run{};                  ///< run whose stored points are drawn; empty: none
+    std::vector<std::size_t> numbers{}; ///< number of the stored point for each point, or for each cell; or empty
+
+    /// Adds a stored point of the run.
+    void add(const PlanePoint& point, std::size_t number) {
+        points.push_back(point);
+        numbers.push_back(number);
+    }
 };
+
+/// Stable name of a style, such as "dots".
+inline std::string_view name_of(FigureSeries::Style style) {
+    constexpr std::array<std::string_view, 8> names{"dots",   "circles",  "line",    "dashed",
+                                                    "dotted", "impulses", "symbols", "cells"};
+    return names.at(static_cast<std::size_t>(style));
+}
 
 /// A short text beside a point. If not all labels fit, those of higher rank are listed under the panel.
 struct FigureLabel {
@@ -42,6 +59,8 @@ struct FigureLabel {
     std::size_t colour = 1001; ///< as for series; black by default
     int rank = 0;              ///< labels of lower rank are placed first
     std::string owner{};       ///< name of its curve, for lists in which labels of several curves have the same text
+    std::string run{};         ///< run of the stored point beside which it stands; empty: there is none
+    std::size_t number = 0;    ///< of that point
 };
 
 /// A panel with two axes.

@@ -43,7 +43,10 @@ public:
         bool marked;
     };
 
-    MotionRecorder(const Simulation& simulation, MotionPanelChoice contents);
+    /// A step of high order covers a large part of an oscillation; superfluous points are left out before drawing.
+    static constexpr int usual_points_of_step = 32;
+
+    MotionRecorder(const Simulation& simulation, MotionPanelChoice contents, int points_of_step = usual_points_of_step);
     /// To be called before a trajectory whose parameters are not those of the simulation's model.
     void set_parameters(std::span<const double> values);
 
@@ -71,12 +74,13 @@ private:
     Simulation simulation_;
     MotionPanelChoice contents_;
     QuantityEvaluator evaluate_;
+    int points_of_step_;
     std::vector<double> periods_, state_;
     DenseMotion motion_;
     std::vector<Jump> jumps_;
     std::vector<Row> passages_;
     std::optional<double> singularity_;
-    bool new_arc_ = true, complete_ = true;
+    bool new_arc_ = true, after_impact_ = false, complete_ = true;
 };
 
 } // namespace graze

@@ -4,8 +4,9 @@
 
 namespace graze {
 
-/// While it exists, queries of result files that run in this thread end when they are asked to, with an InputError. An
-/// earlier one of the same thread counts again afterwards.
+/// While it exists, queries of result files that run in this thread end when they are asked to, with an InputError, and
+/// motions that are computed from them again (dense_motion) end where they are. An earlier one of the same thread
+/// counts again afterwards.
 class QueryInterruption {
 public:
     /// @param interrupted called some thousand times a second while a query runs; returns true to stop it

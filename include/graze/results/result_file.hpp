@@ -122,6 +122,8 @@ public:
     void order_runs(const std::vector<std::string>& names);
     /// Replaces the names of the special points of a run.
     void name_points(const std::string& run, const std::vector<PointName>& names);
+    /// Replaces the text of a run's model by one of the same equations, with another drawing.
+    void replace_model(const std::string& run, const std::string& model);
     /// Removes a run with its points and all other rows.
     void remove_run(const std::string& name);
     /// Adds a point to a run. It is committed when a later point is added, after 50 ms at the earliest, or by `flush`.
@@ -182,7 +184,7 @@ public:
         bool is_null(std::size_t column) const;
         bool is_text(std::size_t column) const;
         bool is_integer(std::size_t column) const;
-        double number(std::size_t column) const;
+        double number(std::size_t column) const; ///< 0 if it is missing @throws InputError for a text
         std::int64_t integer(std::size_t column) const;
         std::string text(std::size_t column) const;
         ~Rows();
@@ -211,6 +213,7 @@ public:
 
 private:
     struct State;
+    std::vector<RunRecord> read_runs(const std::string& which, const std::string& name) const;
     std::vector<OrbitRecord> read_orbits(const std::string& run, const std::string& where, double number,
                                          const std::string& label) const;
     std::shared_ptr<State> state_;

@@ -182,5 +182,7 @@ StudyPicture parse_picture(std::string_view text, const std::string& name, const
 bool is_study_text(std::string_view text, const std::string& file);
 /// Paths of the files that a study is read from: its own, those of models, tables of orbits and records.
 std::vector<std::string> input_files(const Study& study);
+/// Those of a run.
+std::vector<std::string> input_files(const StudyRun& run);
 
 } // namespace graze

@@ -1,0 +1,353 @@
+import { Diagram } from "./diagram.js";
+import { button, checkbox, fill, make } from "./dom.js";
+import type { Figure, FigureAnswer, PictureWish, Table } from "./contract.js";
+import { dataTable } from "./data_table.js";
+import { exportMenu } from "./export_menu.js";
+import type { View } from "./frame.js";
+import { legendElement } from "./legend.js";
+import type { Hit } from "./nearest.js";
+import { pointAfter, describeHit } from "./point_steps.js";
+import { PictureChooser } from "./picture_chooser.js";
+import { recoloured, type Colouring } from "./colouring.js";
+import { appearance } from "./appearance.js";
+import { figureOf, partsOf } from "./joined_figure.js";
+import { hiddenPoints } from "./prepared_panel.js";
+import { pictureText } from "./picture_text.js";
+import { namedWish, seenWish } from "./seen_wish.js";
+import { SpecialList } from "./special_list.js";
+import { Refusal } from "./source.js";
+import type { Workspace } from "./workspace.js";
+
+/** What is kept of a panel when the page is opened again. */
+export interface FigureMemory {
+  wish: PictureWish;
+  logarithmic: [boolean, boolean][];
+  views: (View | null)[]; // null: everything
+  colouring: Colouring;
+}
+
+export interface FigureNeighbours {
+  close(view: FigureView): void;
+  viewed(view: FigureView, diagram: Diagram): void; // zoomed by the user
+  changed(): void; // what is shown
+}
+
+const leastDelay = 500; // milliseconds between two drawings of a run that is being computed
+
+/** A picture in the middle of the page, with all that one can do to it. */
+export class FigureView {
+  readonly root: HTMLElement;
+  readonly diagrams: Diagram[] = [];
+  answer: FigureAnswer | null = null;
+  private logarithmic: [boolean, boolean][] = [];
+  private colouring: Colouring = "picture";
+  private rememberedViews: (View | null)[] = [];
+  private readonly title = make("h2", { class: "figure-title" });
+  private readonly tools = make("div", { class: "tools", role: "group", "aria-label": "Picture" });
+  private readonly chooserButton = button("Choose…", () => this.toggleChooser());
+  private logarithmicBoxes: HTMLInputElement[] = [];
+  private readonly before: PictureWish[] = []; // what the picture showed, the last one last
+  private readonly backButton = button("↶", () => this.goBack(), {
+    "aria-label": "Show what this picture showed before",
+    title: "Show what this picture showed before",
+    hidden: true,
+  });
+  private readonly shownRuns = make("div", { class: "shown-runs row", role: "group", "aria-label": "Runs shown" });
+  private readonly unseen = make("div", { class: "notes" });
+  private readonly chooserPlace = make("div", { class: "chooser", hidden: true });
+  private readonly grid = make("div", { class: "diagrams" });
+  private readonly legend = make("div");
+  private readonly notes = make("div", { class: "notes" });
+  private readonly special: SpecialList;
+  private readonly ends: (() => void)[] = [];
+  private asked: AbortController | null = null;
+  private sameQuantities = false; // only runs were added
+  private drawnAt = 0;
+  private timer = 0;
+
+  /** @param fixed a figure that is no picture of a run, such as one of trips */
+  constructor(
+    readonly workspace: Workspace,
+    private wish: PictureWish,
+    private readonly neighbours: FigureNeighbours,
+    private readonly fixed: { figure: Figure; table: Table | null } | null = null,
+    memory: FigureMemory | null = null,
+  ) {
+    this.special = new SpecialList(workspace);
+    this.root = make(
+      "section",
+      { class: "figure" },
+      make("header", {}, this.title, this.tools),
+      this.chooserPlace,
+      this.shownRuns,
+      this.grid,
+      this.unseen,
+      this.legend,
+      this.special.root,
+      this.notes,
+    );
+    if (memory) {
+      this.logarithmic = memory.logarithmic;
+      this.rememberedViews = memory.views;
+      this.colouring = memory.colouring;
+    }
+    this.ends.push(
+      workspace.on("selection", () => this.markSelection()),
+      workspace.on("runs", (changed) => this.runsChanged(changed)),
+      workspace.on("special", () => this.redraw()),
+      appearance.onChange(() => this.showLegend()),
+    );
+    this.makeTools();
+    void this.load();
+  }
+
+  get isFixed(): boolean {
+    return this.fixed !== null;
+  }
+  /** Whether it shows just one run, or a picture of the study: a click in the list shows it again. */
+  get isPlain(): boolean {
+    const keys = Object.entries(this.wish).filter(([, value]) => value !== undefined);
+    return !this.isFixed && keys.length === 1 && (this.wish.name !== undefined || this.wish.runs?.length === 1);
+  }
+  get kind(): string {
+    return this.wish.kind ?? this.workspace.pictures.find(({ name }) => name === this.wish.name)?.kind ?? "";
+  }
+  get pictureWish(): PictureWish {
+    return this.wish;
+  }
+  /** Runs that are shown. */
+  get runs(): string[] {
+    const picture = this.workspace.pictures.find(({ name }) => name === this.wish.name);
+    return this.wish.runs ?? picture?.runs ?? [];
+  }
+  /** What the picture shows, in keys of its own instead of a name of the study. */
+  private get ownWish(): PictureWish {
+    if (!this.workspace.source.workshop) return { runs: this.runs }; // a file has no other pictures
+    const picture = this.workspace.pictures.find(({ name }) => name === this.wish.name);
+    return { ...namedWish(picture), ...this.wish, name: undefined, runs: this.runs };
+  }
+  get remembered(): FigureMemory | null {
+    if (this.fixed) return null;
+    const views = this.diagrams.map((diagram) => (diagram.showsAll ? null : diagram.currentView));
+    return { wish: this.wish, logarithmic: this.logarithmic, views, colouring: this.colouring };
+  }
+
+  /** @param byChooser otherwise an open form does not show what is drawn, and is closed */
+  setWish(wish: PictureWish, byChooser = false): void {
+    this.before.push(this.wish);
+    this.change(wish, byChooser);
+  }
+
+  private goBack(): void {
+    const wish = this.before.pop();
+    if (wish) this.change(wish, false);
+    if (this.backButton.hidden) this.root.querySelector<HTMLElement>(".diagram")?.focus(); // not lost to the keyboard
+  }
+
+  private change(wish: PictureWish, byChooser: boolean): void {
+    if (!byChooser) this.chooserPlace.hidden = true;
+    this.backButton.hidden = this.before.length === 0;
+    const sameAxes = wish.x === this.wish.x && wish.kind === this.wish.kind && wish.name === this.wish.name;
+    this.wish = wish;
+    if (!sameAxes && !this.sameQuantities) this.logarithmic = [];
+    void this.load();
+  }
+
+  addRun(run: string): void {
+    if (this.runs.includes(run)) void this.load();
+    else {
+      this.sameQuantities = true;
+      this.setWish({ ...this.ownWish, title: undefined, runs: [...this.runs, run] });
+    }
+  }
+
+  removeRun(run: string): void {
+    this.sameQuantities = true;
+    this.setWish({ ...this.ownWish, title: undefined, runs: this.runs.filter((name) => name !== run) });
+    this.neighbours.changed();
+  }
+
+  private showRuns(): void {
+    const { runs } = this;
+    this.shownRuns.hidden = runs.length < 2 || this.fixed !== null;
+    const hide = (name: string) =>
+      button(`${name} ✕`, () => this.removeRun(name), {
+        "aria-label": `Hide ${name}`,
+        title: `Hide ${name} in this picture`,
+      });
+    fill(this.shownRuns, ...(this.shownRuns.hidden ? [] : runs.map(hide)));
+  }
+
+  destroy(): void {
+    this.asked?.abort();
+    clearTimeout(this.timer);
+    this.ends.forEach((end) => end());
+    this.diagrams.forEach((diagram) => diagram.destroy());
+    this.root.remove();
+  }
+
+  /** Figures of runs that are being computed are drawn again at most twice a second. */
+  private runsChanged(changed: Set<string>): void {
+    if (!this.runs.some((run) => changed.has(run)) || this.timer) return;
+    const delay = Math.max(0, this.drawnAt + leastDelay - performance.now());
+    this.timer = window.setTimeout(() => {
+      this.timer = 0;
+      void this.load();
+    }, delay);
+  }
+
+  async load(): Promise<void> {
+    this.asked?.abort();
+    const asked = (this.asked = new AbortController());
+    try {
+      const answer = this.fixed ?? (await figureOf(this.workspace, this.wish, asked.signal));
+      if (asked.signal.aborted) return;
+      this.answer = answer;
+      this.drawnAt = performance.now();
+      this.show(answer);
+    } catch (error) {
+      if (!asked.signal.aborted) this.showProblem(error);
+    }
+  }
+
+  private showProblem(error: unknown): void {
+    const text = error instanceof Refusal ? error.message : String(error);
+    this.title.textContent = this.wish.title ?? this.wish.name ?? this.runs.join(", ");
+    this.showTools();
+    this.showRuns();
+    fill(this.notes, make("p", { class: "problem", role: "alert" }, text));
+    if (this.diagrams.length === 0) this.grid.hidden = true;
+  }
+
+  private show({ figure, table }: FigureAnswer): void {
+    this.grid.hidden = false;
+    this.title.textContent = figure.title || this.runs.join(", ");
+    this.root.setAttribute("aria-label", `Picture: ${this.title.textContent}`);
+    this.grid.style.setProperty("--columns", String(Math.max(1, figure.columns)));
+    if (this.logarithmic.length !== figure.panels.length)
+      this.logarithmic = figure.panels.map((panel) => [panel.x.logarithmic, panel.y.logarithmic]);
+    this.redraw();
+    this.sameQuantities = false;
+    this.rememberedViews.forEach((view, index) => view && this.diagrams[index]?.setView(view));
+    this.rememberedViews = [];
+    this.showTools();
+    this.showLegend();
+    this.showRuns();
+    this.special.show(figure);
+    const notes = [...new Set(figure.panels.flatMap((panel) => panel.notes ?? []))];
+    fill(
+      this.notes,
+      ...notes.map((note) => make("p", { class: "note" }, note)),
+      table && table.rows.length > 0 ? make("details", {}, make("summary", {}, "Numbers"), dataTable(table)) : null,
+    );
+    this.markSelection();
+  }
+
+  /** Draws the figure as it is, after a change of colours or axes. */
+  private redraw(): void {
+    const figure = this.answer?.figure;
+    if (!figure) return;
+    recoloured(figure, this.colouring, this.workspace).panels.forEach((panel, index) => {
+      const known = this.diagrams[index];
+      if (known) return known.setPanel(panel, this.logarithmic[index], this.sameQuantities);
+      const diagram: Diagram = new Diagram(panel, {
+        name: `${figure.title}${panel.title ? `, ${panel.title}` : ""}: arrow keys go from point to point`,
+        typeOf: this.workspace.typeOf,
+        pick: (hit) => this.pick(hit),
+        step: (key) => this.step(diagram, key),
+        viewed: () => this.neighbours.viewed(this, diagram),
+      });
+      this.diagrams.push(diagram);
+      this.grid.append(make("div", { class: "diagram-place" }, make("h3"), diagram.root));
+      diagram.setPanel(panel, this.logarithmic[index]);
+    });
+    while (this.diagrams.length > figure.panels.length) {
+      this.diagrams.pop()?.destroy();
+      this.grid.lastElementChild?.remove();
+    }
+    figure.panels.forEach((panel, index) => {
+      const heading = this.grid.children[index].querySelector("h3");
+      if (heading) heading.textContent = panel.title;
+      if (heading) heading.hidden = !panel.title;
+    });
+    const hidden = this.diagrams.map((diagram) => hiddenPoints(diagram.data)).filter((note) => note !== "");
+    fill(this.unseen, ...[...new Set(hidden)].map((note) => make("p", { class: "note", role: "status" }, note)));
+  }
+
+  private showLegend(): void {
+    if (this.answer) fill(this.legend, legendElement(recoloured(this.answer.figure, this.colouring, this.workspace)));
+  }
+
+  /** The buttons stay while the figure is drawn again: one that is being pressed must not be replaced. */
+  private makeTools(): void {
+    const setAxis = (axis: 0 | 1) => (on: boolean) => {
+      this.logarithmic.forEach((one) => (one[axis] = on));
+      this.redraw();
+    };
+    const boxes = [checkbox("log x", false, setAxis(0)), checkbox("log y", false, setAxis(1))];
+    this.logarithmicBoxes = boxes.map((box) => box.querySelector("input")).filter((box) => box !== null);
+    fill(
+      this.tools,
+      this.fixed ? null : this.chooserButton,
+      ...boxes,
+      this.backButton,
+      button("All", () => this.diagrams.forEach((diagram) => diagram.showAll(true)), { title: "Show everything (0)" }),
+      exportMenu({
+        title: () => this.answer?.figure.title || this.runs.join(", "),
+        figure: () => recoloured(this.answer?.figure ?? emptyFigure, this.colouring, this.workspace),
+        diagrams: () => this.diagrams,
+        studyText: this.fixed ? undefined : (name) => this.studyText(name),
+      }),
+      button("✕", () => this.neighbours.close(this), { "aria-label": "Close this picture", class: "close" }),
+    );
+  }
+
+  private studyText(name: string): string {
+    const wish = seenWish(this),
+      parts = partsOf(this.workspace, wish);
+    if (!parts) return pictureText(name, wish);
+    const note = "# A study draws branches and other runs in pictures of their own.\n";
+    return `${note}${pictureText(name, parts.others)}\n${pictureText(`${name}-branches`, parts.branches)}`;
+  }
+
+  private showTools(): void {
+    this.logarithmicBoxes.forEach((box, axis) => (box.checked = this.logarithmic.some((one) => one[axis])));
+    this.chooserButton.setAttribute("aria-expanded", String(!this.chooserPlace.hidden));
+  }
+
+  private toggleChooser(): void {
+    this.chooserPlace.hidden = !this.chooserPlace.hidden;
+    this.showTools();
+    if (this.chooserPlace.hidden) return;
+    const chooser = new PictureChooser(this.workspace, this.ownWish, this.colouring, {
+      wish: (wish) => this.setWish(wish, true),
+      colouring: (colouring) => {
+        this.colouring = colouring;
+        this.redraw();
+        this.showLegend();
+      },
+    });
+    fill(this.chooserPlace, chooser.root);
+    chooser.root.querySelector<HTMLElement>("select, input, button")?.focus();
+  }
+
+  private pick(hit: Hit): void {
+    if (hit.run !== null && hit.number !== null) this.workspace.select({ run: hit.run, number: hit.number });
+  }
+
+  private markSelection(): void {
+    const chosen = this.workspace.selection;
+    for (const diagram of this.diagrams) diagram.markPoint(chosen?.run ?? null, chosen?.number ?? null);
+  }
+
+  private step(diagram: Diagram, key: string): boolean {
+    const next = pointAfter(diagram, this.workspace.selection, key);
+    if (!next || next.run === null || next.number === null) return false;
+    this.workspace.select({ run: next.run, number: next.number });
+    diagram.reveal(next);
+    this.workspace.announce(describeHit(next, diagram.panel, this.workspace.typeOf(next.run, next.number)));
+    return true;
+  }
+}
+
+const emptyFigure: Figure = { title: "", columns: 1, symbols: [], panels: [] };

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "model/model_file_parts.hpp"
+
+#include <string>
+
+namespace graze {
+
+/// Reads the table [drawing] of a model.
+class DrawingParts : protected ModelParts {
+protected:
+    using ModelParts::ModelParts;
+
+    void read_drawing(const TomlEntry& group);
+
+private:
+    DrawnShape shape(const TomlEntry& entry);
+    DrawnPair pair(const TomlEntry& entry, const char* expected);
+    std::vector<DrawnPair> path_points(const TomlEntry& entry);
+    std::string required_text(const TomlEntry& entry);
+};
+
+} // namespace graze

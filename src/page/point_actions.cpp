@@ -1,0 +1,231 @@
+#include "page/point_actions.hpp"
+
+#include "graze/symbolic/transform.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+namespace graze {
+
+namespace {
+
+double three_digits(double value) {
+    return std::strtod(fmt::format("{:.3g}", value).c_str(), nullptr);
+}
+
+/// The parameters on which the rates of cyclic states depend: above all the frequency of a force, along which
+/// resonances lie, and which most authors follow first.
+std::vector<std::string> frequencies(const Model& model) {
+    Model expanding = model;
+    std::vector<Expression> rates;
+    for (const Mode& mode : model.modes)
+        for (std::size_t i = 0; i < model.states.size(); ++i)
+            if (model.states[i].period)
+                rates.push_back(expanding.expand(mode.rates[i]));
+    std::vector<std::string> names;
+    for (const Expression& symbol : symbols_of(rates))
+        if (model.find_independent_parameter(symbol.name()))
+            names.push_back(symbol.name());
+    return names;
+}
+
+/// Collects the actions of one point.
+class ActionFinder {
+public:
+    explicit ActionFinder(const PointOrigin& origin)
+        : origin_(origin), type_(origin.type()), parameters_(proposed_parameters(origin)),
+          has_section_(!origin.model.sections.empty()) {}
+
+    std::vector<PointAction> find() {
+        if (origin_.run.empty())
+            find_of_model();
+        else if (origin_.orbit)
+            find_of_orbit();
+        else if (origin_.point)
+            find_of_motion();
+        return std::move(actions_);
+    }
+
+private:
+    void add(std::string name, std::string title, std::string words, std::size_t along = 0, std::string onto = "") {
+        if (along > parameters_.size())
+            return;
+        actions_.push_back({std::move(name),
+                            std::move(title),
+                            std::move(words),
+                            {parameters_.begin(), parameters_.begin() + static_cast<std::ptrdiff_t>(along)},
+                            std::move(onto)});
+    }
+    /// The same along another parameter than that of the run.
+    void add_another(std::string words) {
+        if (parameters_.size() < 2)
+            return;
+        add("another", "Another parameter", std::move(words), 1, "same");
+        actions_.back().along = {parameters_[1]};
+    }
+
+    bool has_own_parameter() const { return origin_.is_of(RunKind::follow) || origin_.is_of(RunKind::ladder); }
+
+    double value_of_parameter(const std::string& name) const {
+        return origin_.model.parameter_values()[origin_.model.independent_parameter(name).place()];
+    }
+
+    void find_of_model() {
+        add("simulate", "Simulate", "the motion from the initial state");
+        if (!has_section_)
+            return;
+        add("sweep", "Sweep", "what motions settle on as a parameter changes", 1);
+        add("orbit", "Find the orbit", "the periodic orbit that the motion from the initial state settles on");
+    }
+
+    void find_of_motion() {
+        const PointResult& result = origin_.point->result;
+        const bool goes_on = std::ranges::all_of(result.state, [](double x) { return std::isfinite(x); }) &&
+                             result.label != Label::singular && result.label != Label::failed;
+        if (!goes_on)
+            return;
+        if (result.label == Label::periodic && has_section_) {
+            add("orbit", "Find the orbit", "the periodic orbit that the motion has settled on, with its multipliers");
+            add("follow", "Follow the orbit", "its branch as a parameter changes, also where it is unstable", 1);
+        }
+        find_of_any();
+    }
+
+    /// From wherever a motion can begin.
+    void find_of_any() {
+        if (has_section_ && !parameters_.empty()) {
+            add("sweep", "Sweep from here", "what the motion settles on as a parameter changes step by step", 1);
+            AlongParameter& swept = actions_.back().along.front();
+            const double here = value_of_parameter(swept.name);
+            swept.least = here;
+            if (!(swept.greatest > here))
+                swept.greatest = three_digits(here + std::max(std::abs(here), 0.01));
+        }
+        add("simulate", "Simulate from here", "the motion that begins here");
+    }
+
+    void find_of_orbit() {
+        if (origin_.orbit->point.solution.outcome != OrbitOutcome::converged)
+            return;
+        if (origin_.is_of(RunKind::curve))
+            find_of_curve();
+        else
+            find_of_branch();
+        find_of_any();
+    }
+
+    void find_of_branch() {
+        const PointKind& kind = kind_of(type_);
+        if (type_ == PointType::flip)
+            add("double", "Double the period", "the orbits of twice the period that leave at this flip", 1, "other");
+        else if (type_ == PointType::grazing)
+            add("switch", "Beyond the grazing", "the orbits with one contact more, or fewer", 1, "other");
+        else if (type_ == PointType::asymmetry)
+            add("switch", "Lose the symmetry", "the orbits without the symmetry, which leave here", 1, "other");
+        else if (kind.has_bifurcating_branch)
+            add("switch", "The other branch", "the branch that crosses here", 1, "other");
+        if (kind.may_be_kept)
+            add("curve", "Curve of such points", fmt::format("where this {} is as two parameters change", kind.name),
+                2);
+        if (type_ == PointType::chatter)
+            add("curve", "Curve of such points", "where this onset of chatter is as two parameters change", 2);
+        if (type_ == PointType::grazing)
+            add("ladder", "Ladder of grazings", "the next grazings, each with one contact more, up to chatter", 1);
+        add("follow", "Follow", "the same branch along this parameter, with other bounds if wanted", 1,
+            has_own_parameter() ? "same" : "");
+        if (has_own_parameter())
+            add_another("the branch of this orbit along another parameter");
+        const Orbit& orbit = origin_.orbit->point.solution.orbit;
+        // The image of an orbit that ends at a section does not end there.
+        if (!origin_.model.symmetries.empty() && !orbit.symmetry && !orbit.signature.empty() &&
+            orbit.signature.back().end == SegmentEnd::event)
+            add("twin", "Symmetric image", "the branch of the symmetric image of this orbit", 1, "twin");
+    }
+
+    /// Curves that meet here, of points of other types.
+    void find_of_curve() {
+        const auto curve = [&](const char* of, const char* words) {
+            add(fmt::format("curve-{}", of), fmt::format("Curve of {}", words),
+                fmt::format("the curve of {} that meets this one here", words), 2, of);
+        };
+        const bool folds = type_ == PointType::fold_flip || type_ == PointType::fold_torus ||
+                           type_ == PointType::fold_degenerate || type_ == PointType::resonance_1;
+        const bool flips = type_ == PointType::fold_flip || type_ == PointType::flip_torus ||
+                           type_ == PointType::flip_degenerate || type_ == PointType::resonance_2;
+        const bool tori = type_ == PointType::fold_torus || type_ == PointType::flip_torus ||
+                          type_ == PointType::resonance_1 || type_ == PointType::resonance_2;
+        if (folds)
+            curve("SN", "folds");
+        if (flips)
+            curve("PD", "flips");
+        if (tori)
+            curve("NS", "torus points");
+        add("follow", "Follow one parameter", "the branch of this orbit as one parameter changes", 1, "same");
+        add_another("the branch of this orbit along the other parameter");
+    }
+
+    const PointOrigin& origin_;
+    PointType type_;
+    std::vector<AlongParameter> parameters_;
+    bool has_section_;
+    std::vector<PointAction> actions_;
+};
+
+} // namespace
+
+std::vector<AlongParameter> proposed_parameters(const PointOrigin& origin) {
+    std::vector<AlongParameter> result;
+    const std::vector<std::string> names = origin.model.independent_parameters();
+    const std::vector<double> values = origin.model.parameter_values();
+    const auto add = [&](std::size_t p, std::optional<double> least, std::optional<double> greatest) {
+        if (p >= names.size() || std::ranges::find(result, names[p], &AlongParameter::name) != result.end())
+            return;
+        const double value = values[p], reach = value != 0 ? std::abs(value) : 1;
+        // A parameter seldom changes its sign.
+        const double low = three_digits(value > 0 ? value / 2 : value - reach),
+                     high = three_digits(value < 0 ? value / 2 : value + reach);
+        result.push_back({names[p], least.value_or(low), greatest.value_or(high)});
+    };
+    if (origin.run.empty() || origin.asked.is_measured()) {
+        // nothing is followed or varied
+    } else if (origin.asked.is_followed()) {
+        const BranchSettings& settings = origin.asked.branch().settings;
+        add(settings.parameter.place(), settings.least, settings.greatest);
+        for (const FreeBounds& other : settings.free_bounds)
+            add(other.parameter.place(), other.least, other.greatest);
+        for (const ParameterId other : settings.free)
+            add(other.place(), {}, {});
+    } else if (origin.asked.has_motions()) {
+        for (const Variation& axis : origin.asked.motion().axes)
+            if (!axis.state && axis.values.size() > 1)
+                add(axis.parameter.place(), axis.values.front(), axis.values.back());
+    }
+    for (const std::string& name : frequencies(origin.model))
+        add(origin.model.independent_parameter(name).place(), {}, {});
+    for (std::size_t p = 0; p < names.size(); ++p)
+        add(p, {}, {});
+    return result;
+}
+
+std::vector<PointAction> actions_at(const PointOrigin& origin) {
+    return ActionFinder(origin).find();
+}
+
+nlohmann::json actions_json(const std::vector<PointAction>& actions) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const PointAction& action : actions) {
+        list.push_back(
+            {{"name", action.name}, {"title", action.title}, {"words", action.words}, {"along", action.along.size()}});
+        nlohmann::json parameters = nlohmann::json::array();
+        for (const AlongParameter& one : action.along)
+            parameters.push_back({{"name", one.name}, {"least", one.least}, {"greatest", one.greatest}});
+        list.back()["parameters"] = std::move(parameters);
+    }
+    return list;
+}
+
+} // namespace graze

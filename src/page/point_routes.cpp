@@ -1,0 +1,106 @@
+#include "graze/model/model_file.hpp"
+#include "page/error_answer.hpp"
+#include "page/grazing_json.hpp"
+#include "page/model_json.hpp"
+#include "page/motion_json.hpp"
+#include "page/page_route.hpp"
+#include "page/point_actions.hpp"
+#include "page/point_json.hpp"
+#include "page/request_json.hpp"
+#include "page/simulation_json.hpp"
+#include "page/stored_subject.hpp"
+#include "page/trip_json.hpp"
+
+namespace graze {
+
+namespace {
+
+std::function<bool()> interrupted_by(const PageParts& parts) {
+    return [&stopping = parts.stopping] { return stopping.load(); };
+}
+
+HttpAnswer answer_point(PageParts& parts, const PageCall& call) {
+    const ResultFile file = present_results(parts.session);
+    const std::string& run = call.query("run");
+    const std::size_t number = count_of(call.query("number"), "number");
+    nlohmann::json answer = point_json(file, run, number);
+    answer["actions"] = nlohmann::json::array();
+    if (parts.session.can_compute())
+        answer["actions"] =
+            actions_json(actions_at(point_origin(file, *study_with_run(parts.session, file, run), run, number)));
+    return json_answer(answer);
+}
+
+HttpAnswer answer_motion(PageParts& parts, const PageCall& call) {
+    return json_answer(motion_json(present_results(parts.session), text_member(call.body, "run"),
+                                   count_member(call.body, "number"), texts_member(call.body, "names"),
+                                   interrupted_by(parts)));
+}
+
+HttpAnswer answer_model(PageParts& parts, const PageCall& call) {
+    const std::string run = call.has_query("run") ? call.query("run") : "";
+    const Model model = model_of_run(parts.session, run);
+    nlohmann::json answer = model_json(model, run.empty() ? parts.session.subject().text : "");
+    answer["actions"] = nlohmann::json::array();
+    if (run.empty() && parts.session.can_compute())
+        answer["actions"] = actions_json(actions_at(point_origin(model)));
+    return json_answer(answer);
+}
+
+/// Values by name; values of other types are refused.
+std::map<std::string, double> numbers_member(const nlohmann::json& request, const char* name) {
+    std::map<std::string, double> numbers;
+    const nlohmann::json members = object_member(request, name);
+    for (const auto& [member, value] : members.items())
+        numbers[member] = number_member(members, member.c_str());
+    return numbers;
+}
+
+HttpAnswer answer_simulation(PageParts& parts, const PageCall& call) {
+    const std::string text = text_member(call.body, "text", ""), run = text_member(call.body, "run", "");
+    if (!text.empty() && !run.empty())
+        throw InputError("the request has both a run and the text of a model", "give one of them");
+    const Model model = text.empty() ? model_of_run(parts.session, run) : parse_model(text, "model");
+    SimulationWish wish;
+    wish.parameters = numbers_member(call.body, "parameters");
+    wish.initial = numbers_member(call.body, "initial");
+    if (call.body.contains("duration") && !call.body["duration"].is_null())
+        wish.duration = number_member(call.body, "duration");
+    wish.mode = text_member(call.body, "mode", "");
+    wish.names = texts_member(call.body, "names");
+    wish.interrupted = interrupted_by(parts);
+    return json_answer(simulation_json(model, wish));
+}
+
+HttpAnswer answer_grazing(PageParts& parts, const PageCall& call) {
+    return json_answer(
+        grazing_json(present_results(parts.session), text_member(call.body, "run"), count_member(call.body, "number")));
+}
+
+HttpAnswer answer_trip(PageParts& parts, const PageCall& call) {
+    const nlohmann::json options = object_member(call.body, "options");
+    require_known_members(options, {"parameter", "overshoots", "until", "cycles"});
+    TripWish wish;
+    wish.parameter = text_member(options, "parameter", "");
+    wish.overshoots = texts_member(options, "overshoots");
+    wish.until = text_member(options, "until", "");
+    if (options.contains("cycles") && !options["cycles"].is_null())
+        wish.cycles = number_member(options, "cycles");
+    wish.interrupted = interrupted_by(parts);
+    return json_answer(trip_json(present_results(parts.session), text_member(call.body, "run"),
+                                 count_member(call.body, "number"), wish));
+}
+
+} // namespace
+
+std::vector<PageRoute> point_routes() {
+    return {
+        {"GET", "/point", answer_point, {"run", "number"}},
+        {"POST", "/motion", answer_motion, {"run", "number", "names"}},
+        {"GET", "/model", answer_model, {"run"}},
+        {"POST", "/simulate", answer_simulation, {"run", "text", "parameters", "initial", "mode", "duration", "names"}},
+        {"POST", "/grazing", answer_grazing, {"run", "number"}},
+        {"POST", "/trip", answer_trip, {"run", "number", "options"}}};
+}
+
+} // namespace graze

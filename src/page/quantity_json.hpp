@@ -1,0 +1,19 @@
+#pragma once
+
+#include "graze/results/result_file.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace graze {
+
+/// The name of a quantity, its unit and its meaning in a few words; both may be empty.
+nlohmann::json quantity_json(const std::string& name, const std::string& unit, const std::string& words);
+/// The same with a value, which is null if it is not finite.
+nlohmann::json quantity_json(const std::string& name, const std::string& unit, const std::string& words, double value);
+/// The same for columns without words.
+nlohmann::json columns_json(const std::vector<ResultColumn>& columns);
+
+} // namespace graze

@@ -1,0 +1,96 @@
+#include "page/result_watch.hpp"
+
+#include "graze/base/input_error.hpp"
+#include "graze/results/query_interruption.hpp"
+#include "page/runs_json.hpp"
+#include "page/study_file.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace graze {
+
+namespace {
+
+/// Text that differs after the file, or the journal with its latest changes, has been written to.
+std::string traces_of(const std::string& path) {
+    return file_trace(path) + ';' + file_trace(path + "-wal");
+}
+
+} // namespace
+
+void look_at_study(StudySession& session, EventStream& events) {
+    if (session.look())
+        events.tell("study", {{"revision", session.text().revision}});
+}
+
+ResultWatch::ResultWatch(StudySession& session, EventStream& events, std::chrono::milliseconds pause)
+    : session_(&session), events_(&events), pause_(pause), thread_([this] { work(); }) {}
+
+ResultWatch::~ResultWatch() {
+    {
+        const std::lock_guard lock(mutex_);
+        ended_ = true;
+    }
+    awaited_.notify_one();
+    thread_.join();
+}
+
+void ResultWatch::look_now() {
+    {
+        const std::lock_guard lock(mutex_);
+        now_ = true;
+    }
+    awaited_.notify_one();
+}
+
+void ResultWatch::work() {
+    const QueryInterruption stoppable([this] { return ended_.load(); }); // a file may have queries that take long
+    std::unique_lock lock(mutex_);
+    while (!ended_) {
+        lock.unlock();
+        look();
+        lock.lock();
+        awaited_.wait_for(lock, pause_, [this] { return now_ || ended_; });
+        now_ = false;
+    }
+}
+
+void ResultWatch::look() {
+    try {
+        look_at_study(*session_, *events_);
+        look_at_runs();
+    } catch (const std::exception&) { // NOLINT(bugprone-empty-catch): as while it is written; it looks again soon
+    }
+}
+
+void ResultWatch::look_at_runs() {
+    const std::string traces = traces_of(session_->results_path());
+    const std::shared_ptr<const Study> study = session_->study();
+    if (traces == seen_ && study == seen_study_)
+        return;
+    const auto file = session_->results();
+    const std::set<std::string> outdated = file ? session_->outdated(*file) : std::set<std::string>();
+    std::map<std::string, std::string> revisions;
+    nlohmann::json list = nlohmann::json::array();
+    if (file)
+        for (const RunRecord& run : file->runs()) {
+            const std::string revision = run_revision(*file, run);
+            const std::string status(outdated.contains(run.name) ? "outdated" : name_of(run.status));
+            revisions[run.name] = revision + status;
+            list.push_back({{"name", run.name}, {"revision", revision}, {"status", status}});
+        }
+    const bool others = revisions.size() != revisions_.size() ||
+                        !std::equal(revisions.begin(), revisions.end(), revisions_.begin(),
+                                    [](const auto& one, const auto& other) { return one.first == other.first; });
+    if (others)
+        session_->look_at_results();
+    // What was read may be older than the traces, never newer: a later change leaves other ones.
+    seen_ = traces;
+    seen_study_ = study;
+    if (revisions == revisions_)
+        return;
+    revisions_ = std::move(revisions);
+    events_->tell("runs", {{"runs", std::move(list)}});
+}
+
+} // namespace graze
