@@ -67,14 +67,22 @@ std::vector<PlanePoint> jumps_of(const DenseMotion& motion, std::size_t value) {
     return points;
 }
 
+/// The samplings of a run; none where its settings cannot be read, as of other versions: the picture needs no more of
+/// them.
+std::vector<Sampling> stored_samplings(const RunRecord& run) {
+    try {
+        const StudyRun asked = stored_run(run);
+        return asked.has_motions() ? asked.motion().samplings : std::vector<Sampling>{};
+    } catch (const InputError&) {
+        return {};
+    }
+}
+
 /// Events of which the picture shows the contacts as samples.
 std::set<std::size_t> sampled_events(const StudyPicture& picture, const StoredRun& run) {
     std::set<std::size_t> events;
-    const StudyRun asked = stored_run(run.record);
-    if (!asked.has_motions())
-        return events;
     const std::vector<std::string> shown = shown_samplings(picture, run);
-    for (const Sampling& one : asked.motion().samplings)
+    for (const Sampling& one : stored_samplings(run.record))
         if (std::ranges::find(shown, one.name) != shown.end())
             events.insert(one.events.begin(), one.events.end());
     return events;

@@ -171,10 +171,9 @@ void declare_plot_results(CommandLine& line) {
     options.add("--y-label TEXT", plot.picture.y_labels,
                 "Labels of the vertical axes with their units (made by graze)");
     options.style(plot.style);
-    options.add(
-        "--output FILE", plot.output,
-        "Picture: .png (default), .svg, .pdf, .eps, for LaTeX .tex, or .html: one page with all runs and orbits of "
-        "their points, for a browser");
+    options.add("--output FILE", plot.output,
+                "Picture: .png (default), .svg, .pdf, .eps, .tex for LaTeX, or .html: all runs and their orbits, for a "
+                "browser");
     options.add("--data FILE", plot.data, kept_data_text);
 }
 

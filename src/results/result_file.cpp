@@ -32,7 +32,8 @@ void require_names(const RunRecord& run, const std::string& path) {
     if (!run_kind(run.kind))
         throw InputError(place, fmt::format("run '{}' is of unknown kind '{}'", run.name, run.kind),
                          "use the version of graze that wrote it");
-    if ((run.kind == "sweep" && run.coordinates.empty()) || (!run.is_branch() && run.directions.empty()))
+    if (((run.kind == "sweep" || run.is_followed()) && run.coordinates.empty()) ||
+        (!run.is_branch() && run.directions.empty()))
         throw_contradiction(path, fmt::format("run '{}' varies nothing", run.name));
     require_plain_line(run.model_name, "name of a model", place);
     require_plain_line(run.version, "version", place);

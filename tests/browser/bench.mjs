@@ -87,7 +87,7 @@ export class Bench {
         (route) => this.answerWithOtherPage(route),
       );
     const page = await context.newPage();
-    page.setDefaultTimeout(10000);
+    page.setDefaultTimeout(30000);
     page.on("pageerror", (error) => this.complaints.push(`${error.message}`));
     page.on("console", (message) => {
       const text = message.text();
@@ -141,7 +141,7 @@ export class Bench {
 
 /** Waits until a condition in the page holds. */
 export async function until(page, condition, ...given) {
-  await page.waitForFunction(condition, given.length === 1 ? given[0] : given, { timeout: 15000 });
+  await page.waitForFunction(condition, given.length === 1 ? given[0] : given, { timeout: 30000 });
 }
 
 /** The ranges of the axes of a diagram. */

@@ -170,7 +170,6 @@ inline constexpr std::string_view accepted[] = {
     // The same as in SQL.
     "query_select__1",
     "query_values_too_many",
-    "rows_number_of_a_text",
 };
 
 /// Calls in another order than documented, which must be refused as such.
