@@ -20,9 +20,9 @@ std::function<bool()> interrupted_by(const PageParts& parts) {
 }
 
 HttpAnswer answer_point(PageParts& parts, const PageCall& call) {
-    const ResultFile file = present_results(parts.session);
     const std::string& run = call.query("run");
     const std::size_t number = count_of(call.query("number"), "number");
+    const ResultFile file = present_results(parts.session);
     nlohmann::json answer = point_json(file, run, number);
     answer["actions"] = nlohmann::json::array();
     if (parts.session.can_compute())
@@ -31,10 +31,19 @@ HttpAnswer answer_point(PageParts& parts, const PageCall& call) {
     return json_answer(answer);
 }
 
+/// The point that the body of a request names.
+struct NamedPoint {
+    explicit NamedPoint(const PageCall& call)
+        : run(text_member(call.body, "run")), number(count_member(call.body, "number")) {}
+    std::string run;
+    std::size_t number;
+};
+
 HttpAnswer answer_motion(PageParts& parts, const PageCall& call) {
-    return json_answer(motion_json(present_results(parts.session), text_member(call.body, "run"),
-                                   count_member(call.body, "number"), texts_member(call.body, "names"),
-                                   interrupted_by(parts)));
+    const NamedPoint point(call);
+    const std::vector<std::string> names = texts_member(call.body, "names");
+    return json_answer(
+        motion_json(present_results(parts.session), point.run, point.number, names, interrupted_by(parts)));
 }
 
 HttpAnswer answer_model(PageParts& parts, const PageCall& call) {
@@ -73,8 +82,8 @@ HttpAnswer answer_simulation(PageParts& parts, const PageCall& call) {
 }
 
 HttpAnswer answer_grazing(PageParts& parts, const PageCall& call) {
-    return json_answer(
-        grazing_json(present_results(parts.session), text_member(call.body, "run"), count_member(call.body, "number")));
+    const NamedPoint point(call);
+    return json_answer(grazing_json(present_results(parts.session), point.run, point.number));
 }
 
 HttpAnswer answer_trip(PageParts& parts, const PageCall& call) {
@@ -87,8 +96,8 @@ HttpAnswer answer_trip(PageParts& parts, const PageCall& call) {
     if (options.contains("cycles") && !options["cycles"].is_null())
         wish.cycles = number_member(options, "cycles");
     wish.interrupted = interrupted_by(parts);
-    return json_answer(trip_json(present_results(parts.session), text_member(call.body, "run"),
-                                 count_member(call.body, "number"), wish));
+    const NamedPoint point(call);
+    return json_answer(trip_json(present_results(parts.session), point.run, point.number, wish));
 }
 
 } // namespace

@@ -83,7 +83,8 @@ HttpAnswer answer_figure(PageParts& parts, const PageCall& call) {
 }
 
 HttpAnswer answer_special_points(PageParts& parts, const PageCall& call) {
-    return json_answer(special_points_json(present_results(parts.session), call.query("run")));
+    const std::string& run = call.query("run");
+    return json_answer(special_points_json(present_results(parts.session), run));
 }
 
 Table table_of_rows(ResultTable given) {
