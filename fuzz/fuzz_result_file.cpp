@@ -45,8 +45,8 @@ graze::RunRecord run_of(const char* kind) {
     run.states = {{"x", "m"}, {"v", ""}};
     run.values = {{"v", ""}};
     run.modes = {"flight"};
+    run.coordinates = {{"x", "m"}};
     if (!run.is_branch()) {
-        run.coordinates = {{"x", "m"}};
         run.samplings = {"s"};
         run.directions = {"up"};
     }

@@ -1,6 +1,6 @@
-import type { Action, Model, NamedNumber, Num, Point, TripAnswer } from "./contract.js";
+import type { Action, Model, NamedNumber, Num, Point, StartedJob, TripAnswer } from "./contract.js";
 import { dataTable } from "./data_table.js";
-import { append, button, choice, fill, labelled, make } from "./dom.js";
+import { append, button, choice, fill, labelled, make, messageOf, problem } from "./dom.js";
 import { recall, remember } from "./memory.js";
 import { shown, symbolOf } from "./numbers.js";
 import type { Workshop } from "./source.js";
@@ -11,11 +11,6 @@ export interface ActionActs {
   compute(text: string): Promise<StartedJob>; // a table [runs.NAME], which is added to the study
   trip(title: string, answer: TripAnswer): void;
   simulate(point: Point): void;
-}
-
-export interface StartedJob {
-  id: number | string;
-  runs: string[];
 }
 
 /** Where something begins: a point, or a state of a model. */
@@ -108,7 +103,7 @@ async function showGrazing(workshop: Workshop, point: Point, place: HTMLElement)
       dataTable({ columns, rows: facts }, "The discontinuity map"),
     );
   } catch (error) {
-    showProblem(place, error);
+    fill(place, problem(messageOf(error)));
   }
 }
 
@@ -120,13 +115,8 @@ async function showTrip(workshop: Workshop, point: Point, acts: ActionActs, plac
     fill(place, ...words.map((line) => make("p", {}, line)));
     if (answer.figure) acts.trip(`Trips at ${point.run} ${point.name || point.number}`, answer);
   } catch (error) {
-    showProblem(place, error);
+    fill(place, problem(messageOf(error)));
   }
-}
-
-function showProblem(place: HTMLElement, error: unknown): void {
-  const text = error instanceof Error ? error.message : String(error);
-  fill(place, make("p", { class: "problem", role: "alert" }, text));
 }
 
 /** A parameter along which something goes, with its bounds. */

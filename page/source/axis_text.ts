@@ -1,5 +1,5 @@
 import type { Axis } from "./contract.js";
-import { symbolOf } from "./numbers.js";
+import { perUnit, raised, symbolOf } from "./numbers.js";
 
 /** The title of an axis: its words, its name, and its unit; without words if it has more letters than there is room for. */
 export function axisTitle(axis: Axis, room = Infinity): string {
@@ -13,7 +13,7 @@ function fullTitle(axis: Axis): string {
   const both = axis.words && axis.label && axis.label.length <= 4 && axis.words !== axis.label;
   const words = withSymbols(axis.words ?? "");
   const text = both ? `${words} ${name}` : words || name;
-  return axis.unit && axis.unit !== "1" ? `${text} / ${unitText(axis.unit)}` : text;
+  return perUnit(text, unitText(axis.unit));
 }
 
 /** Names such as x3 within a text with their numbers as indices. */
@@ -21,11 +21,6 @@ function withSymbols(text: string): string {
   return text.replace(/\b[A-Za-z]_?\d{1,2}\b/g, symbolOf);
 }
 
-const raised = "⁰¹²³⁴⁵⁶⁷⁸⁹";
-
-export function unitText(unit: string): string {
-  return unit.replace(/\^(-?)(\d+)/g, (_, sign: string, digits: string) => {
-    const letters = [...digits].map((digit) => raised[Number(digit)]).join("");
-    return (sign ? "⁻" : "") + letters;
-  });
+function unitText(unit: string): string {
+  return unit.replace(/\^(-?\d+)/g, (_, exponent: string) => raised(exponent));
 }

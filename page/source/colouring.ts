@@ -20,7 +20,7 @@ export function recoloured(figure: Figure, colouring: Colouring, workspace: Work
     if (series.colour === "grey") return "grey";
     if (colouring === "run") return series.run ? (order.get(series.run) ?? series.colour) : series.colour;
     if (series.style === "dashed") return unstable;
-    return series.style === "line" ? stable : series.colour === "black" ? "black" : "black";
+    return series.style === "line" ? stable : "black";
   };
   // Legends name runs by colours of the study, which then say nothing: the names of runs replace them.
   const replaced = (series: Series) =>
@@ -41,7 +41,8 @@ export function recoloured(figure: Figure, colouring: Colouring, workspace: Work
   };
 }
 
-function entry(title: string, style: Series["style"], colour: ColourName): Series {
+/** What only stands in the legend. */
+export function entry(title: string, style: Series["style"], colour: ColourName): Series {
   return { title, style, colour, only_in_legend: true, x: [], y: [] };
 }
 

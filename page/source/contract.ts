@@ -9,7 +9,6 @@ export interface Session {
   can_compute: boolean;
   results: string | null | boolean;
   stored: boolean;
-  limits?: Record<string, number>;
 }
 
 export interface Quantity {
@@ -56,17 +55,7 @@ export interface StudyPicture {
 }
 
 /** A picture that is asked for: the name of one of the study, or keys of a [pictures.NAME] table. */
-export interface PictureWish {
-  name?: string;
-  kind?: string;
-  title?: string;
-  runs?: string[];
-  over?: string[];
-  x?: string;
-  y?: string[];
-  samples?: string[];
-  directions?: string[];
-  points?: string[];
+export interface PictureWish extends Partial<StudyPicture> {
   at?: Record<string, number>[];
   logarithmic?: string[];
   x_range?: [number, number];
@@ -324,6 +313,11 @@ export interface Job {
   message: string;
 }
 
+export interface StartedJob {
+  id: number | string;
+  runs: string[];
+}
+
 export interface GrazingAnswer {
   verdict: string;
   words: string;
@@ -339,11 +333,4 @@ export interface TripAnswer {
 export interface Check {
   errors: Mistake[];
   runs: string[];
-}
-
-export interface ServerEvents {
-  runs?: { runs: { name: string; revision: number | string; status: Run["status"] }[] };
-  job?: Job;
-  study?: { revision: number | string };
-  end?: unknown;
 }

@@ -1,5 +1,6 @@
 import type { Figure, Panel } from "./contract.js";
 import type { Diagram } from "./diagram.js";
+import { perUnit } from "./numbers.js";
 
 /** A cell of a CSV file. A leading "=" and the like would be a formula to spreadsheets: it becomes a text. */
 function cell(value: string | number | null | undefined): string {
@@ -10,8 +11,7 @@ function cell(value: string | number | null | undefined): string {
 }
 
 function heading(axis: Panel["x"]): string {
-  const name = axis.label || axis.words;
-  return axis.unit && axis.unit !== "1" ? `${name} / ${axis.unit}` : name;
+  return perUnit(axis.label || axis.words, axis.unit);
 }
 
 /** What is drawn within the frames: a row for each point. */

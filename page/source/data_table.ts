@@ -1,6 +1,6 @@
 import type { NamedNumber, Num, Table } from "./contract.js";
 import { make } from "./dom.js";
-import { shown, symbolOf } from "./numbers.js";
+import { perUnit, shown, symbolOf } from "./numbers.js";
 
 function cell(value: Num | string | boolean | undefined): HTMLTableCellElement {
   if (typeof value === "string") return make("td", {}, value);
@@ -15,14 +15,7 @@ function caption(title: string, seen: boolean): HTMLTableCaptionElement {
 /** A table that can be scrolled sideways. @param seen whether its title is seen, or stands above it already */
 export function dataTable(table: Table, title = table.title ?? "", seen = true): HTMLElement {
   const head = make("tr");
-  for (const column of table.columns)
-    head.append(
-      make(
-        "th",
-        { scope: "col" },
-        column.unit && column.unit !== "1" ? `${column.name} / ${column.unit}` : column.name,
-      ),
-    );
+  for (const { name, unit } of table.columns) head.append(make("th", { scope: "col" }, perUnit(name, unit)));
   const body = make("tbody");
   for (const row of table.rows) body.append(make("tr", {}, ...row.map(cell)));
   const element = make("table", {}, title ? caption(title, seen) : null, make("thead", {}, head), body);

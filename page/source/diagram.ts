@@ -49,8 +49,9 @@ export class Diagram {
   constructor(
     panel: Panel,
     readonly options: DiagramOptions,
+    [x, y] = [panel.x.logarithmic, panel.y.logarithmic],
   ) {
-    this.prepared = new PreparedPanel(panel, panel.x.logarithmic, panel.y.logarithmic);
+    this.prepared = new PreparedPanel(panel, x, y);
     this.view = this.whole = this.prepared.wholeView();
     this.root = make("div", {
       class: "diagram",
@@ -359,10 +360,10 @@ export class Diagram {
     const known = this.markers.get(kind);
     if (!known || !this.plot) return;
     if (known.element.parentElement !== this.plot.over) this.plot.over.append(known.element);
-    const place = this.screenPlace(known.marker);
-    const { clientWidth, clientHeight } = this.plot.over;
-    const visible =
-      place && place.x >= -1 && place.y >= -1 && place.x <= clientWidth + 1 && place.y <= clientHeight + 1;
+    const { x, y } = known.marker;
+    const frame = this.frame(),
+      place = this.screenPlace(known.marker);
+    const visible = place && frame?.has(frame.x(x), frame.y(y), uPlot.pxRatio); // a pixel of the screen beyond
     known.element.hidden = !visible;
     if (visible) known.element.style.transform = `translate(${place.x}px, ${place.y}px)`;
   }

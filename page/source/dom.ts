@@ -33,6 +33,15 @@ export function button(text: string, act: () => void, attributes: Record<string,
   return make("button", { type: "button", click: act, ...attributes }, text);
 }
 
+/** What is wrong, which is also read out. */
+export function problem(text: string): HTMLElement {
+  return make("p", { class: "problem", role: "alert" }, text);
+}
+
+export function messageOf(error: unknown): string {
+  return error instanceof Error ? error.message : String(error);
+}
+
 /** A field with its name beside it. */
 export function labelled(
   name: string,
@@ -86,9 +95,4 @@ export function offer(name: string, content: Blob): void {
   link.click();
   link.remove();
   setTimeout(() => URL.revokeObjectURL(address), 10000);
-}
-
-/** The value of a style variable, such as `--ink`. */
-export function styleValue(name: string): string {
-  return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 }

@@ -1,6 +1,6 @@
 import { Diagram } from "./diagram.js";
-import { button, checkbox, fill, make } from "./dom.js";
-import type { Figure, FigureAnswer, PictureWish, Table } from "./contract.js";
+import { button, checkbox, fill, make, messageOf, problem } from "./dom.js";
+import type { Figure, FigureAnswer, PictureWish, StudyPicture, Table } from "./contract.js";
 import { dataTable } from "./data_table.js";
 import { exportMenu } from "./export_menu.js";
 import type { View } from "./frame.js";
@@ -15,7 +15,6 @@ import { hiddenPoints } from "./prepared_panel.js";
 import { pictureText } from "./picture_text.js";
 import { namedWish, seenWish } from "./seen_wish.js";
 import { SpecialList } from "./special_list.js";
-import { Refusal } from "./source.js";
 import type { Workspace } from "./workspace.js";
 
 /** What is kept of a panel when the page is opened again. */
@@ -94,7 +93,7 @@ export class FigureView {
     this.ends.push(
       workspace.on("selection", () => this.markSelection()),
       workspace.on("runs", (changed) => this.runsChanged(changed)),
-      workspace.on("special", () => this.redraw()),
+      workspace.on("special", () => this.showTypes()),
       appearance.onChange(() => this.showLegend()),
     );
     this.makeTools();
@@ -109,22 +108,24 @@ export class FigureView {
     const keys = Object.entries(this.wish).filter(([, value]) => value !== undefined);
     return !this.isFixed && keys.length === 1 && (this.wish.name !== undefined || this.wish.runs?.length === 1);
   }
+  /** The one of the study that is shown. */
+  get picture(): StudyPicture | undefined {
+    return this.workspace.picture(this.wish.name);
+  }
   get kind(): string {
-    return this.wish.kind ?? this.workspace.pictures.find(({ name }) => name === this.wish.name)?.kind ?? "";
+    return this.wish.kind ?? this.picture?.kind ?? "";
   }
   get pictureWish(): PictureWish {
     return this.wish;
   }
   /** Runs that are shown. */
   get runs(): string[] {
-    const picture = this.workspace.pictures.find(({ name }) => name === this.wish.name);
-    return this.wish.runs ?? picture?.runs ?? [];
+    return this.wish.runs ?? this.picture?.runs ?? [];
   }
   /** What the picture shows, in keys of its own instead of a name of the study. */
   private get ownWish(): PictureWish {
     if (!this.workspace.source.workshop) return { runs: this.runs }; // a file has no other pictures
-    const picture = this.workspace.pictures.find(({ name }) => name === this.wish.name);
-    return { ...namedWish(picture), ...this.wish, name: undefined, runs: this.runs };
+    return { ...namedWish(this.picture), ...this.wish, name: undefined, runs: this.runs };
   }
   get remembered(): FigureMemory | null {
     if (this.fixed) return null;
@@ -211,11 +212,10 @@ export class FigureView {
   }
 
   private showProblem(error: unknown): void {
-    const text = error instanceof Refusal ? error.message : String(error);
     this.title.textContent = this.wish.title ?? this.wish.name ?? this.runs.join(", ");
     this.showTools();
     this.showRuns();
-    fill(this.notes, make("p", { class: "problem", role: "alert" }, text));
+    fill(this.notes, problem(messageOf(error)));
     if (this.diagrams.length === 0) this.grid.hidden = true;
   }
 
@@ -250,16 +250,19 @@ export class FigureView {
     recoloured(figure, this.colouring, this.workspace).panels.forEach((panel, index) => {
       const known = this.diagrams[index];
       if (known) return known.setPanel(panel, this.logarithmic[index], this.sameQuantities);
-      const diagram: Diagram = new Diagram(panel, {
-        name: `${figure.title}${panel.title ? `, ${panel.title}` : ""}: arrow keys go from point to point`,
-        typeOf: this.workspace.typeOf,
-        pick: (hit) => this.pick(hit),
-        step: (key) => this.step(diagram, key),
-        viewed: () => this.neighbours.viewed(this, diagram),
-      });
+      const diagram: Diagram = new Diagram(
+        panel,
+        {
+          name: `${figure.title}${panel.title ? `, ${panel.title}` : ""}: arrow keys go from point to point`,
+          typeOf: this.workspace.typeOf,
+          pick: (hit) => this.pick(hit),
+          step: (key) => this.step(diagram, key),
+          viewed: () => this.neighbours.viewed(this, diagram),
+        },
+        this.logarithmic[index],
+      );
       this.diagrams.push(diagram);
       this.grid.append(make("div", { class: "diagram-place" }, make("h3"), diagram.root));
-      diagram.setPanel(panel, this.logarithmic[index]);
     });
     while (this.diagrams.length > figure.panels.length) {
       this.diagrams.pop()?.destroy();
@@ -272,6 +275,12 @@ export class FigureView {
     });
     const hidden = this.diagrams.map((diagram) => hiddenPoints(diagram.data)).filter((note) => note !== "");
     fill(this.unseen, ...[...new Set(hidden)].map((note) => make("p", { class: "note", role: "status" }, note)));
+  }
+
+  /** What special points are may be known later than the figure. */
+  private showTypes(): void {
+    this.diagrams.forEach((one) => one.redraw());
+    if (this.answer) this.special.show(this.answer.figure);
   }
 
   private showLegend(): void {

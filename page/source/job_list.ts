@@ -1,5 +1,6 @@
 import type { Job } from "./contract.js";
 import { append, button, make } from "./dom.js";
+import { counted } from "./kind_words.js";
 import type { Workspace } from "./workspace.js";
 
 const words: Record<Job["state"], string> = {
@@ -33,9 +34,8 @@ class JobEntry {
 
   show(job: Job): void {
     this.root.className = `job ${job.state}`;
-    const count = job.points || job.done;
     const points = job.done
-      ? `: ${job.points ? `${job.done} of ` : ""}${count} ${count === 1 ? "point" : "points"}`
+      ? `: ${job.points ? `${job.done} of ` : ""}${counted(job.points || job.done, "point")}`
       : "";
     this.words.textContent = `${words[job.state]}${job.run && job.runs.length > 1 ? `, ${job.run}` : ""}${points}`;
     this.message.textContent = job.message ?? "";

@@ -32,7 +32,7 @@ export function partsOf(
   workspace: Workspace,
   wish: PictureWish,
 ): { others: PictureWish; branches: PictureWish } | null {
-  const runs = (wish.runs ?? []).map((name) => workspace.run(name)).filter((run): run is Run => run !== undefined);
+  const runs = workspace.runsOf(wish.runs ?? []);
   const branches = runs.filter((run) => run.is_branch),
     others = runs.filter((run) => !run.is_branch);
   if (branches.length === 0 || others.length === 0) return null;

@@ -1,6 +1,6 @@
 import type { ColourName, Label } from "./contract.js";
 import type { Frame } from "./frame.js";
-import type { PreparedPanel } from "./prepared_panel.js";
+import { lineDashes, type PreparedPanel } from "./prepared_panel.js";
 
 export interface PlacedLabel {
   text: string;
@@ -10,7 +10,6 @@ export interface PlacedLabel {
   anchorX: number;
   anchorY: number;
   leader: { x: number; y: number } | null;
-  labels: Label[];
 }
 
 interface Box {
@@ -68,7 +67,6 @@ export function placeLabels(
       anchorX: group.x,
       anchorY: group.y,
       leader,
-      labels: group.labels,
     });
   }
   return placed;
@@ -144,7 +142,7 @@ class Occupied {
     this.cells = new Uint8Array(this.columns * this.rows);
     for (const { series, line } of prepared.drawn) {
       const { x, y } = line;
-      if (series.style !== "line" && series.style !== "dashed" && series.style !== "dotted") continue;
+      if (!(series.style in lineDashes)) continue;
       for (let i = 1; i < x.length && this.marked < mostCells; ++i)
         this.mark(frame.x(x[i - 1]), frame.y(y[i - 1]), frame.x(x[i]), frame.y(y[i]));
     }

@@ -2,7 +2,7 @@ import { appearance } from "./appearance.js";
 import type { ColourName, Figure, SeriesStyle } from "./contract.js";
 import { make, makeSvg } from "./dom.js";
 import { colourText, hex, type Look } from "./palette.js";
-import { lineDashes } from "./panel_drawing.js";
+import { lineDashes } from "./prepared_panel.js";
 import { glyphOf, typeIn } from "./symbols.js";
 
 export interface LegendEntry {

@@ -14,6 +14,7 @@ import type {
   SimulationWish,
   SpecialPoint,
   SpecialPoints,
+  StartedJob,
   StudyPicture,
   StudySaving,
   StudyText,
@@ -96,8 +97,7 @@ export class LiveSource implements Source, Workshop {
   keepStudy = (text: string, revision: number, saving: StudySaving) =>
     this.ask<StudyText>("PUT", "/api/study", { text, revision, ...saving });
   propose = (wish: ProposalWish) => this.post<Proposal>("/api/propose", wish);
-  start = (work: { text: string } | { runs: string[] }) =>
-    this.post<{ id: number | string; runs: string[] }>("/api/jobs", work);
+  start = (work: { text: string } | { runs: string[] }) => this.post<StartedJob>("/api/jobs", work);
   jobs = () => this.ask<Job[]>("GET", "/api/jobs");
   stop = (id: number | string) => this.ask<void>("DELETE", `/api/jobs/${encodeURIComponent(String(id))}`);
   grazing = (run: string, number: number) => this.post<GrazingAnswer>("/api/grazing", { run, number });

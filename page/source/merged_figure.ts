@@ -1,3 +1,4 @@
+import { entry } from "./colouring.js";
 import type { ColourName, Figure, Panel, Series } from "./contract.js";
 
 /**
@@ -17,7 +18,7 @@ export function mergedFigure(parts: { run: string; figure: Figure }[]): Figure |
     const same = others.map(({ figure }) => figure.panels.find((one) => haveSameAxes(one, panel)));
     if (same.some((one) => one === undefined)) continue;
     const all = [panel, ...same.filter((one): one is Panel => one !== undefined)];
-    const names = coloured.map(({ run, first }) => entry(run, first));
+    const names = coloured.map(({ run, first }) => entry(run, "line", first));
     panels.push({
       ...panel,
       title: "",
@@ -53,7 +54,7 @@ export function drawnOver(
     if (fitting.length === 0) continue;
     const inLegend = several
       ? fitting.flatMap(({ series }) => series.filter((one) => one.only_in_legend))
-      : [entry(names, first), ...legendOf(fitting)];
+      : [entry(names, "line", first), ...legendOf(fitting)];
     const values = fitting.map(({ y }) => y.label).filter((label) => label !== panel.y.label);
     panels.push({
       ...panel,
@@ -98,10 +99,6 @@ function shifted(figure: Figure, by: number): Figure {
       labels: panel.labels.map((one) => ({ ...one, colour: one.colour === "black" ? by : shift(one.colour) })),
     })),
   };
-}
-
-function entry(title: string, colour: number): Series {
-  return { title, style: "line", colour, only_in_legend: true, x: [], y: [] };
 }
 
 /** Meanings of lines and symbols, which are the same for all runs: each once, and black. */

@@ -2,8 +2,7 @@ import { appearance } from "./appearance.js";
 import type { DrawnShape, Drawing, Motion, Pair } from "./contract.js";
 import { make } from "./dom.js";
 import { arcOf } from "./motion_rows.js";
-import { hex } from "./palette.js";
-import { colourText } from "./palette.js";
+import { colourText, hex } from "./palette.js";
 
 type Number2 = [number, number];
 
@@ -65,8 +64,9 @@ export class ModelDrawing {
 
   private fit(width: number, height: number): void {
     this.pixel = devicePixelRatio;
-    this.canvas.width = Math.round(width * this.pixel);
-    this.canvas.height = Math.round(height * this.pixel);
+    const size = { width: Math.round(width * this.pixel), height: Math.round(height * this.pixel) };
+    // A canvas whose size is set gets new memory, even if it is the same size.
+    if (size.width !== this.canvas.width || size.height !== this.canvas.height) Object.assign(this.canvas, size);
     const { x, y } = this.drawing;
     this.unit = Math.min(this.canvas.width / (x[1] - x[0]), this.canvas.height / (y[1] - y[0]));
     this.left = this.canvas.width / 2 - (this.unit * (x[0] + x[1])) / 2;

@@ -41,7 +41,7 @@ function contactsOf(motion: Motion, x: number, y: number): Series {
 }
 
 /** A panel of one column over another one, with the contacts marked. */
-export function motionPanel(motion: Motion, x: number, y: number, title = ""): Panel {
+export function motionPanel(motion: Motion, x: number, y: number): Panel {
   const axis = (column: number) => ({
     label: motion.columns[column].name,
     unit: motion.columns[column].unit,
@@ -50,7 +50,7 @@ export function motionPanel(motion: Motion, x: number, y: number, title = ""): P
     range: null,
   });
   return {
-    title,
+    title: "",
     x: axis(x),
     y: axis(y),
     marks: [],

@@ -38,7 +38,6 @@ export class MotionView {
   private chosen: Choice | null = null;
   private now = 0;
   private readonly exports: HTMLElement;
-  private readonly forget = appearance.onChange(() => this.showTime(this.now));
 
   constructor() {
     append(this.root, this.note, this.scene, this.player.root, this.chooser, this.portraitPlace, this.historyChooser);
@@ -48,6 +47,7 @@ export class MotionView {
       figure: () => this.figure,
       diagrams: () => this.diagrams,
     });
+    appearance.onChange(() => this.showTime(this.now));
   }
 
   /** The portrait, and the histories below. */
@@ -62,12 +62,6 @@ export class MotionView {
   clear(): void {
     this.player.pause();
     this.root.hidden = true;
-  }
-
-  destroy(): void {
-    this.forget();
-    this.portrait?.destroy();
-    for (const diagram of this.histories.values()) diagram.destroy();
   }
 
   /** @param hidden names of columns that only the drawing needs; @param title for exported files */

@@ -1,6 +1,6 @@
 import type { Label } from "./contract.js";
 import type { Frame } from "./frame.js";
-import { indicesWithin, type PreparedPanel, type PreparedSeries } from "./prepared_panel.js";
+import { indicesWithin, lineDashes, piecesWithin, type PreparedPanel, type PreparedSeries } from "./prepared_panel.js";
 
 /** A drawn point near the pointer. */
 export interface Hit {
@@ -23,9 +23,9 @@ export function nearestPoint(prepared: PreparedPanel, frame: Frame, px: number, 
   let bestCost = Infinity;
   for (const one of prepared.drawn) {
     const { series } = one;
-    const isLine = series.style === "line" || series.style === "dashed" || series.style === "dotted";
     const bonus = series.style === "symbols" ? reach / 2 : 0;
-    const found = isLine ? nearestOnLine(one, frame, px, py, reach) : nearestDot(one, frame, px, py, reach);
+    const found =
+      series.style in lineDashes ? nearestOnLine(one, frame, px, py, reach) : nearestDot(one, frame, px, py, reach);
     if (!found) continue;
     const cost = found.distance - bonus;
     if (cost >= bestCost) continue;
@@ -70,9 +70,7 @@ function nearestDot(one: PreparedSeries, frame: Frame, px: number, py: number, r
 /** A line can be touched between its points, too; the nearer end of the touched piece is found then. */
 function nearestOnLine(one: PreparedSeries, frame: Frame, px: number, py: number, reach: number): Found | null {
   const { x, y } = one;
-  let [first, last] = indicesWithin(one, frame.view.x);
-  first = Math.max(0, first - 1);
-  last = Math.min(x.length, last + 1);
+  const [first, last] = piecesWithin(one, frame.view.x);
   let least = reach * reach,
     index = -1;
   let x0 = NaN,

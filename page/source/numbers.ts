@@ -13,12 +13,24 @@ export function shown(value: Num | undefined, digits = 6): string {
   return withoutZeros(text.includes("e") ? String(Number(text)) : text).replace("-", "−");
 }
 
-function withoutZeros(text: string): string {
+export function withoutZeros(text: string): string {
   return text.includes(".") ? text.replace(/\.?0+$/, "") : text;
 }
 
 export function withUnit(value: Num | undefined, unit: string, digits = 6): string {
   return unit && unit !== "1" ? `${shown(value, digits)} ${unit}` : shown(value, digits);
+}
+
+/** What is given in this unit, as at an axis and over a column. */
+export function perUnit(name: string, unit: string): string {
+  return unit && unit !== "1" ? `${name} / ${unit}` : name;
+}
+
+const superscripts = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+
+/** An exponent, such as "-3", in raised letters. */
+export function raised(text: string): string {
+  return [...text].map((letter) => (letter === "-" ? "⁻" : superscripts[Number(letter)])).join("");
 }
 
 const lowered = "₀₁₂₃₄₅₆₇₈₉";

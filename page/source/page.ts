@@ -1,8 +1,8 @@
-import type { ActionActs, StartedJob } from "./action_form.js";
+import type { ActionActs } from "./action_form.js";
 import { addressOf, keep, kept, type KeptView } from "./kept_view.js";
 import { ConnectionBanner } from "./connection_banner.js";
-import type { Job, Model, Point, Session, StudyPicture } from "./contract.js";
-import { append, button, fill, make } from "./dom.js";
+import type { Job, Model, Point, Session, StartedJob, StudyPicture } from "./contract.js";
+import { append, button, fill, make, messageOf, problem } from "./dom.js";
 import { FigureGrid } from "./figure_grid.js";
 import { JobList } from "./job_list.js";
 import { recall, remember } from "./memory.js";
@@ -34,6 +34,7 @@ export class Page {
   private refreshing = 0;
   private refreshAgain = false;
   private ready = false;
+  private keeping = 0;
   private screens: Screens | null = null;
 
   private constructor(
@@ -102,6 +103,7 @@ export class Page {
       if (this.ready) screens.showSide(true);
       void this.showModel(selection.run);
     });
+    window.addEventListener("pagehide", () => this.keepNow());
   }
 
   private get view(): KeptView {
@@ -109,18 +111,27 @@ export class Page {
     return { figures: this.grid.remembered, selection, tab: this.tabs.opened, simulation: this.simulation.kept };
   }
 
+  /** A diagram that is moved changes at each event of the pointer: what is shown is kept when it rests. */
   private keep(): void {
-    if (this.ready) keep(this.view);
+    if (!this.ready) return;
+    clearTimeout(this.keeping);
+    this.keeping = window.setTimeout(() => this.keepNow(), 200);
+  }
+
+  private keepNow(): void {
+    if (this.keeping) keep(this.view);
+    clearTimeout(this.keeping);
+    this.keeping = 0;
   }
 
   /** What was shown before, or the first pictures of the study, or the first run. */
   private async restore(): Promise<void> {
     const before = kept(),
-      { pictures, runs, session } = this.workspace;
+      { runs, session } = this.workspace;
     const exists = (name: string) => runs.some((run) => run.name === name);
     for (const memory of before?.figures ?? []) {
-      const named = memory.wish.name !== undefined && pictures.some(({ name }) => name === memory.wish.name);
-      if (named || memory.wish.runs?.some(exists)) this.grid.open(memory.wish, memory);
+      if (this.workspace.picture(memory.wish.name) || memory.wish.runs?.some(exists))
+        this.grid.open(memory.wish, memory);
     }
     this.openUsual();
     const drawable = runs.filter((run) => run.points > 0);
@@ -315,7 +326,6 @@ function keptTitle({ opened, title }: Session): string {
 
 /** What a page shows that cannot be opened. */
 export function showFailure(root: HTMLElement, error: unknown): void {
-  const text = error instanceof Error ? error.message : String(error);
-  fill(root, make("p", { class: "problem", role: "alert" }, text));
+  fill(root, problem(messageOf(error)));
   append(root, make("p", {}, "Open the address that `graze view` prints, with its token."));
 }

@@ -3,7 +3,7 @@ import type { DotBuffer } from "./dot_buffer.js";
 import type { Frame } from "./frame.js";
 import { placeLabels } from "./label_places.js";
 import { colourNumber, colourText, hex, letterColour, type Look } from "./palette.js";
-import { indicesWithin, type PreparedPanel, type PreparedSeries } from "./prepared_panel.js";
+import { indicesWithin, lineDashes, piecesWithin, type PreparedPanel, type PreparedSeries } from "./prepared_panel.js";
 import { drawGlyph, glyphOf, glyphStamp, typeIn } from "./symbols.js";
 
 export interface DrawingStyle {
@@ -21,8 +21,6 @@ const manyDots = 50000;
 export function dotRadius(points: number): number {
   return points > manyDots ? 0.75 : points > 5000 ? 0.9 : points > 800 ? 1.2 : 1.7;
 }
-
-export const lineDashes: Record<string, number[]> = { line: [], dashed: [6, 3.5], dotted: [1.6, 2.6] };
 
 export function drawPanel(
   context: CanvasRenderingContext2D,
@@ -131,9 +129,7 @@ function drawLine(context: CanvasRenderingContext2D, one: PreparedSeries, frame:
   context.lineWidth = 1.8 * style.scale;
   context.lineJoin = "round";
   context.setLineDash(lineDashes[series.style].map((length) => length * style.scale));
-  let [first, last] = indicesWithin({ x, order }, frame.view.x);
-  first = Math.max(0, first - 1); // the piece that enters the frame, and the one that leaves it
-  last = Math.min(x.length, last + 1);
+  const [first, last] = piecesWithin({ x, order }, frame.view.x);
   context.beginPath();
   let open = false,
     lastX = 0,

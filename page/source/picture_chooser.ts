@@ -1,7 +1,7 @@
 import { colourings, type Colouring } from "./colouring.js";
 import type { PictureWish, Quantity, Run } from "./contract.js";
 import { append, button, checkbox, choice, fill, labelled, make, type Option } from "./dom.js";
-import { symbolOf } from "./numbers.js";
+import { perUnit, symbolOf } from "./numbers.js";
 import { haveSameAxes } from "./joined_figure.js";
 import type { Workspace } from "./workspace.js";
 
@@ -49,7 +49,7 @@ export class PictureChooser {
     const automatic: Option = { value: "", text: "automatic" };
     const option = ({ name, unit, words }: Quantity): Option => ({
       value: name,
-      text: `${symbolOf(name)}${unit && unit !== "1" ? ` / ${unit}` : ""}${words ? ` – ${words}` : ""}`,
+      text: `${perUnit(symbolOf(name), unit)}${words ? ` – ${words}` : ""}`,
     });
     const quantities = this.quantities().map(option);
     const set = (change: Partial<PictureWish>) => this.change(change);
@@ -151,34 +151,18 @@ export class PictureChooser {
     const directions = [...new Set(runs.flatMap((run) => [...run.directions, ...run.parts]))].filter((way) => way);
     const samplings = [...new Set(runs.flatMap((run) => run.samplings))];
     const row = make("div", { class: "row" });
-    const any: Option = { value: "", text: "all" };
-    if (directions.length > 1)
-      append(
-        row,
-        labelled(
-          "direction",
-          choice([any, ...directions], this.wish.directions?.[0] ?? "", (value) =>
-            this.change({ directions: value ? [value] : undefined }),
-          ),
-        ),
-      );
-    if (samplings.length > 1)
-      append(
-        row,
-        labelled(
-          "samples",
-          choice([any, ...samplings], this.wish.samples?.[0] ?? "", (value) =>
-            this.change({ samples: value ? [value] : undefined }),
-          ),
-        ),
-      );
+    const offer = (name: string, key: "directions" | "samples", ways: string[]) => {
+      const set = (value: string) => this.change({ [key]: value ? [value] : undefined });
+      const options = [{ value: "", text: "all" }, ...ways];
+      if (ways.length > 1) append(row, labelled(name, choice(options, this.wish[key]?.[0] ?? "", set)));
+    };
+    offer("direction", "directions", directions);
+    offer("samples", "samples", samplings);
     return row.childElementCount > 0 ? row : null;
   }
 
   private chosenRuns(): Run[] {
-    return (this.wish.runs ?? [])
-      .map((name) => this.workspace.run(name))
-      .filter((run): run is Run => run !== undefined);
+    return this.workspace.runsOf(this.wish.runs ?? []);
   }
 
   private quantities(): Quantity[] {

@@ -1,5 +1,5 @@
 import { button, choice, fill, labelled, make } from "./dom.js";
-import { shown, withUnit } from "./numbers.js";
+import { withUnit } from "./numbers.js";
 
 const [leastSeconds, secondsOfCycle, mostSeconds] = [4, 1.5, 120]; // at usual speed
 const steps = 1000;
@@ -62,10 +62,11 @@ export class Player {
 
   private goTo(time: number): void {
     this.time = time;
+    this.show(time); // first: it reads sizes, which is slow after something is written
     const span = this.end - this.begin;
     this.slider.value = String(span > 0 ? Math.round((steps * (time - this.begin)) / span) : 0);
-    this.slider.setAttribute("aria-valuetext", withUnit(time, this.unit, 4));
-    this.clock.textContent = `t = ${shown(time, 4)}${this.unit && this.unit !== "1" ? ` ${this.unit}` : ""}`;
-    this.show(time);
+    const text = withUnit(time, this.unit, 4);
+    this.slider.setAttribute("aria-valuetext", text);
+    this.clock.textContent = `t = ${text}`;
   }
 }

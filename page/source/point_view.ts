@@ -2,12 +2,11 @@ import { actionButtons, pointButtons, type ActionActs } from "./action_form.js";
 import type { Model, NamedNumber, Num, Point } from "./contract.js";
 import { dataTable, valueTable } from "./data_table.js";
 import { Diagram } from "./diagram.js";
-import { append, fill, make } from "./dom.js";
+import { append, fill, make, messageOf, problem } from "./dom.js";
 import { expressionsOf } from "./model_drawing.js";
 import { MotionView } from "./motion_view.js";
 import { multiplierPanel } from "./multiplier_panel.js";
 import { shown, symbolOf, withUnit } from "./numbers.js";
-import { Refusal } from "./source.js";
 import { varied, type Selection, type Workspace } from "./workspace.js";
 
 const marginal = new Set(["SN", "PD", "NS", "BP", "SB"]);
@@ -72,9 +71,8 @@ export class PointView {
         this.motion.setMotion(motion, model, hidden, `${run} ${point.name || point.label || point.number}`);
     } catch (error) {
       if (asked.signal.aborted) return;
-      const text = error instanceof Refusal ? error.message : String(error);
       this.motion.clear();
-      append(this.heading, make("p", { class: "problem", role: "alert" }, text));
+      append(this.heading, problem(messageOf(error)));
     }
   }
 

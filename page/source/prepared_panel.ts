@@ -11,9 +11,11 @@ export interface PreparedSeries {
   line: DrawnLine; // the same points, and those that make a line smooth; in the same order
 }
 
+/** The styles of lines, with their dashes. */
+export const lineDashes: Record<string, number[]> = { line: [], dashed: [6, 3.5], dotted: [1.6, 2.6] };
+
 /** A panel as it is drawn, searched and exported. */
 export class PreparedPanel {
-  readonly all: PreparedSeries[];
   readonly drawn: PreparedSeries[];
   readonly labels: Label[];
 
@@ -22,8 +24,7 @@ export class PreparedPanel {
     readonly logarithmicX: boolean,
     readonly logarithmicY: boolean,
   ) {
-    this.all = panel.series.map(prepared);
-    this.drawn = this.all.filter(({ series }) => !series.only_in_legend);
+    this.drawn = panel.series.filter((one) => !one.only_in_legend).map(prepared);
     this.labels = panel.labels;
   }
 
@@ -143,6 +144,12 @@ export function indicesWithin(one: Pick<PreparedSeries, "x" | "order">, range: R
   const before = (value: number, limit: number) => (one.order > 0 ? value < limit : value > limit);
   const after = (value: number, limit: number) => (one.order > 0 ? value > limit : value < limit);
   return [partition(one.x, (value) => before(value, low)), partition(one.x, (value) => !after(value, high))];
+}
+
+/** The same for a line, with the piece that enters the range, and the one that leaves it. */
+export function piecesWithin(one: Pick<PreparedSeries, "x" | "order">, range: Range): [number, number] {
+  const [first, last] = indicesWithin(one, range);
+  return [Math.max(0, first - 1), Math.min(one.x.length, last + 1)];
 }
 
 /** The number of leading values for which the condition holds. */

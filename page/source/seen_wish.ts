@@ -11,8 +11,7 @@ export function namedWish(picture: StudyPicture | undefined): PictureWish {
 
 /** What asks for the picture as it is seen, with its zoom. */
 export function seenWish(view: FigureView): PictureWish {
-  const picture = view.workspace.pictures.find(({ name }) => name === view.pictureWish.name);
-  const wish: PictureWish = { ...namedWish(picture), ...view.pictureWish, runs: view.runs };
+  const wish: PictureWish = { ...namedWish(view.picture), ...view.pictureWish, runs: view.runs };
   delete wish.name;
   const [first] = view.diagrams;
   if (!first) return wish;

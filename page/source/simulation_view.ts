@@ -1,12 +1,11 @@
 import { actionButtons, type ActionActs, type ActionOrigin } from "./action_form.js";
 import type { Action, Model, Motion } from "./contract.js";
-import { append, button, fill, make } from "./dom.js";
+import { append, button, fill, make, messageOf } from "./dom.js";
 import { remember } from "./memory.js";
 import { MotionView } from "./motion_view.js";
-import { shown, symbolOf } from "./numbers.js";
+import { perUnit, shown, symbolOf } from "./numbers.js";
 import { namesFor } from "./point_view.js";
 import { isAtEnd, rangeAround, type Slid } from "./slider_range.js";
-import { Refusal } from "./source.js";
 import type { Workspace } from "./workspace.js";
 
 /** Where a simulation begins: which model, and values that replace those of the model. */
@@ -215,7 +214,7 @@ export class SimulationView {
       setRange(chosen);
       choose(chosen);
     });
-    const title = unit && unit !== "1" ? `${symbolOf(name)} / ${unit}` : symbolOf(name);
+    const title = perUnit(symbolOf(name), unit);
     const meaning = words && words !== name ? make("span", { class: "words" }, words) : null;
     return { root: make("div", { class: "slider" }, make("span", {}, title), slider, field, meaning), show };
   }
@@ -262,7 +261,7 @@ export class SimulationView {
         this.message.className = "note";
       } catch (error) {
         if (asked.signal.aborted || model !== this.model) continue;
-        this.refuse(error instanceof Refusal ? error.message : String(error));
+        this.refuse(messageOf(error));
         this.motion.clear(); // it would be that of other values
       }
     }

@@ -13,6 +13,7 @@ import type {
   Session,
   SimulationWish,
   SpecialPoint,
+  StartedJob,
   StudyPicture,
   StudySaving,
   StudyText,
@@ -68,7 +69,7 @@ export interface Workshop {
   study(): Promise<StudyText>;
   keepStudy(text: string, revision: number, saving: StudySaving): Promise<StudyText>;
   propose(wish: ProposalWish): Promise<Proposal>;
-  start(work: { text: string } | { runs: string[] }): Promise<{ id: number | string; runs: string[] }>;
+  start(work: { text: string } | { runs: string[] }): Promise<StartedJob>;
   jobs(): Promise<Job[]>;
   stop(id: number | string): Promise<void>;
   grazing(run: string, number: number): Promise<GrazingAnswer>;

@@ -10,19 +10,10 @@ const few = 12; // so many are seen without opening the list
 export class SpecialList {
   readonly root = make("details", { class: "special" });
   private shown = "";
-  private figure: Figure | null = null;
 
-  constructor(private readonly workspace: Workspace) {
-    // What they are, and where, may be known later than the figure.
-    const forget = workspace.on("special", () => {
-      if (!this.figure) return;
-      if (this.root.isConnected) this.show(this.figure);
-      else forget();
-    });
-  }
+  constructor(private readonly workspace: Workspace) {}
 
   show(figure: Figure): void {
-    this.figure = figure;
     const known = new Map<string, { text: string; run: string; number: number }>();
     for (const panel of figure.panels)
       for (const { text, run, number } of panel.labels)

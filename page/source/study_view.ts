@@ -1,5 +1,5 @@
 import type { Mistake, Model, StudyText } from "./contract.js";
-import { append, button, fill, labelled, make } from "./dom.js";
+import { append, button, fill, labelled, make, messageOf } from "./dom.js";
 import { studyHelp } from "./editor_help.js";
 import { Refusal } from "./source.js";
 import { TextEditor } from "./text_editor.js";
@@ -40,7 +40,7 @@ export class StudyView {
       fill(this.place, this.editor.root);
       this.take(study);
     } catch (error) {
-      this.say(textOf(error), true);
+      this.say(messageOf(error), true);
     }
   }
 
@@ -110,7 +110,7 @@ export class StudyView {
       const conflict = error instanceof Refusal && error.status === 409;
       const now = conflict && !study.has_file ? await workshop.study().catch(() => null) : null;
       if (conflict && now?.revision !== study.revision) this.refuse();
-      else this.say(textOf(error), true);
+      else this.say(messageOf(error), true);
       return false;
     }
   }
@@ -132,7 +132,7 @@ export class StudyView {
         `; ${runs.length === 1 ? "one run is" : `${runs.length} runs are`} computed: ${runs.join(", ")}`,
       );
     } catch (error) {
-      this.say(`Saved, but not computed: ${textOf(error)}`, true);
+      this.say(`Saved, but not computed: ${messageOf(error)}`, true);
     }
   }
 
@@ -158,8 +158,4 @@ export class StudyView {
     this.message.textContent = text;
     this.message.className = isProblem ? "problem" : "note";
   }
-}
-
-function textOf(error: unknown): string {
-  return error instanceof Error ? error.message : String(error);
 }

@@ -7,8 +7,8 @@ import { Frame } from "./frame.js";
 import { placeLabels } from "./label_places.js";
 import { legendSample } from "./legend.js";
 import { colourText, hex, letterColour, type Look } from "./palette.js";
-import { dotRadius, lineDashes, symbolSize, symbolType } from "./panel_drawing.js";
-import { indicesWithin, type PreparedSeries } from "./prepared_panel.js";
+import { dotRadius, symbolSize, symbolType } from "./panel_drawing.js";
+import { indicesWithin, lineDashes, piecesWithin, type PreparedSeries } from "./prepared_panel.js";
 import { glyphOf } from "./symbols.js";
 import { ticksOf } from "./ticks.js";
 
@@ -162,9 +162,7 @@ function cellsSvg(series: Series, frame: Frame, colour: string): string {
 
 function linePath(one: PreparedSeries, frame: Frame): string {
   const { line, order } = one;
-  let [first, last] = indicesWithin({ x: line.x, order }, frame.view.x);
-  first = Math.max(0, first - 1);
-  last = Math.min(line.x.length, last + 1);
+  const [first, last] = piecesWithin({ x: line.x, order }, frame.view.x);
   let path = "",
     open = false;
   for (let i = first; i < last; ++i) {

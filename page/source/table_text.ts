@@ -1,6 +1,5 @@
-import type { StartedJob } from "./action_form.js";
-import type { Job, Proposal } from "./contract.js";
-import { append, button, fill, labelled, make } from "./dom.js";
+import type { Job, Proposal, StartedJob } from "./contract.js";
+import { append, button, fill, labelled, make, messageOf, problem } from "./dom.js";
 import type { Workspace } from "./workspace.js";
 
 const delay = 150; // milliseconds: the server is not asked at each key
@@ -68,7 +67,7 @@ export class TableText {
           this.start.disabled = false;
           this.checkName();
         } catch (error) {
-          if (asked === this.asked) this.refuse(error instanceof Error ? error.message : String(error));
+          if (asked === this.asked) this.refuse(messageOf(error));
         }
       },
       this.text.value === "" ? 0 : delay,
@@ -76,12 +75,12 @@ export class TableText {
   }
 
   /** The fields are wrong: there is no text that does what they say. */
-  refuse(problem: string): void {
+  refuse(why: string): void {
     ++this.asked;
     clearTimeout(this.timer);
     if (!this.edited) this.text.value = "";
     this.start.disabled = !this.edited;
-    fill(this.message, make("p", { class: "problem", role: "alert" }, problem));
+    fill(this.message, problem(why));
   }
 
   private checkName(): void {
@@ -89,12 +88,7 @@ export class TableText {
     if (this.text.value === "") return;
     const taken = this.workspace.runs.some((run) => run.name.toLowerCase() === name.toLowerCase());
     this.start.disabled = taken;
-    fill(
-      this.message,
-      taken
-        ? make("p", { class: "problem", role: "alert" }, `There is a run ${name} already: choose another name.`)
-        : null,
-    );
+    fill(this.message, taken && problem(`There is a run ${name} already: choose another name.`));
   }
 
   private async begin(): Promise<void> {
@@ -109,10 +103,7 @@ export class TableText {
       this.tell(this.workspace.jobs.find(({ id }) => String(id) === String(job.id)));
     } catch (error) {
       this.start.disabled = false;
-      fill(
-        this.message,
-        make("p", { class: "problem", role: "alert" }, error instanceof Error ? error.message : String(error)),
-      );
+      fill(this.message, problem(messageOf(error)));
     }
   }
 
@@ -123,8 +114,7 @@ export class TableText {
     if (job.state === "running") this.say(runs, "is computed; it appears in the picture as it grows");
     else if (job.state === "complete") this.say(runs, "is complete");
     else if (job.state === "stopped") this.say(runs, "was stopped; what it has stays");
-    else if (job.state === "failed")
-      fill(this.message, make("p", { class: "problem", role: "alert" }, `The run ${runs} failed: ${job.message}`));
+    else if (job.state === "failed") fill(this.message, problem(`The run ${runs} failed: ${job.message}`));
     if (job.state !== "running" && job.state !== "waiting") this.forget();
   }
 

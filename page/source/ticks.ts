@@ -1,4 +1,4 @@
-import { decimalsFor } from "./numbers.js";
+import { decimalsFor, raised, withoutZeros } from "./numbers.js";
 
 export interface Ticks {
   values: number[];
@@ -31,28 +31,9 @@ function textsOf(values: number[], step: number): string[] {
   return values.map((value) => value.toFixed(decimals).replace("-", "−"));
 }
 
-const raised: Record<string, string> = {
-  "-": "⁻",
-  "0": "⁰",
-  "1": "¹",
-  "2": "²",
-  "3": "³",
-  "4": "⁴",
-  "5": "⁵",
-  "6": "⁶",
-  "7": "⁷",
-  "8": "⁸",
-  "9": "⁹",
-};
-
-function raise(exponent: number): string {
-  return [...String(exponent)].map((letter) => raised[letter]).join("");
-}
-
 function powerText(value: number, digits: number): string {
   const [mantissa, exponent] = value.toExponential(Math.min(digits, 8)).split("e");
-  const short = mantissa.includes(".") ? mantissa.replace(/\.?0+$/, "") : mantissa;
-  return `${short.replace("-", "−")}·10${raise(Number(exponent))}`;
+  return `${withoutZeros(mantissa).replace("-", "−")}·10${raised(String(Number(exponent)))}`;
 }
 
 function logarithmicTicks(low: number, high: number, wanted: number): Ticks {
@@ -68,7 +49,9 @@ function logarithmicTicks(low: number, high: number, wanted: number): Ticks {
       if (value < low * (1 - 1e-9) || value > high * (1 + 1e-9) || power % stride !== 0) continue;
       values.push(value);
       const plain = power >= -3 && power <= 4;
-      texts.push(plain ? String(Number(value.toPrecision(3))) : part === 1 ? `10${raise(power)}` : powerText(value, 0));
+      texts.push(
+        plain ? String(Number(value.toPrecision(3))) : part === 1 ? `10${raised(String(power))}` : powerText(value, 0),
+      );
     }
   return { values, texts };
 }

@@ -30,9 +30,10 @@ export class Tooltip {
     append(this.element, line(panel.x, hit.x), line(panel.y, hit.y));
     if (this.element.parentElement !== over) over.append(this.element);
     // Beside the pointer, on the side where there is room.
-    const right = x + this.element.offsetWidth + 18 > over.clientWidth;
-    const low = y + this.element.offsetHeight + 14 > over.clientHeight;
-    this.element.style.left = `${right ? Math.max(0, x - this.element.offsetWidth - 12) : x + 14}px`;
-    this.element.style.top = `${low ? Math.max(0, y - this.element.offsetHeight - 8) : y + 12}px`;
+    const { offsetWidth: width, offsetHeight: height, style } = this.element;
+    const right = x + width + 18 > over.clientWidth;
+    const low = y + height + 14 > over.clientHeight;
+    style.left = `${right ? Math.max(0, x - width - 12) : x + 14}px`;
+    style.top = `${low ? Math.max(0, y - height - 8) : y + 12}px`;
   }
 }

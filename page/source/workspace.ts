@@ -60,6 +60,16 @@ export class Workspace {
     return this.runs.find((run) => run.name === name);
   }
 
+  /** Those that there are. */
+  runsOf(names: string[]): Run[] {
+    return names.map((name) => this.run(name)).filter((run): run is Run => run !== undefined);
+  }
+
+  /** The picture of the study that has this name. */
+  picture(name: string | undefined): StudyPicture | undefined {
+    return this.pictures.find((picture) => picture.name === name);
+  }
+
   /** Reads the lists again. */
   async refresh(): Promise<void> {
     const before = new Map(this.runs.map((run) => [run.name, run.revision]));

@@ -4,6 +4,7 @@
 #include "graze/base/input_error.hpp"
 #include "graze/branch/orbit_branch.hpp"
 #include "graze/results/orbit_motion.hpp"
+#include "graze/study/plain_states.hpp"
 
 #include <fmt/format.h>
 
@@ -13,13 +14,6 @@
 namespace graze {
 
 namespace {
-
-/// Returns the section of a cyclic state if the model has one; otherwise its first section.
-std::string section_of(const Model& model) {
-    const auto phase =
-        std::ranges::find_if(model.sections, [](const Section& section) { return section.state.has_value(); });
-    return phase != model.sections.end() ? phase->name : model.sections.empty() ? "" : model.sections.front().name;
-}
 
 /// Returns the model beyond the trip value, with the orbit that no longer exists as initial state.
 Model beyond(const TripPoint& trip, const Orbit& orbit, double overshoot) {
@@ -119,7 +113,7 @@ Reset reset_of(const TripPoint& trip, const Orbit& orbit, const ResetOptions& op
     Reset reset;
     const Model model = beyond(trip, orbit, options.overshoot);
     AttractorOptions settle;
-    settle.section = section_of(model);
+    settle.section = usual_section(model);
     settle.cycles = options.cycles;
     settle.chaos_cycles = 0; // a label `chaotic` here only gives a start for further steps
     constexpr std::size_t returns = 24;

@@ -29,12 +29,7 @@ public:
                              "give at least [states] and a mode; docs/model-format.md shows how");
         std::map<std::string, TomlEntry> top;
         for (const TomlEntry& entry : reader_.entries(root_, "")) {
-            mistakes_.attempt([&] {
-                reader_.require_known(entry, "",
-                                      {"name", "text", "source", "time_unit", "parameters", "states", "definitions",
-                                       "modes", "events", "jumps", "transitions", "sections", "symmetries",
-                                       "quantities", "drawing", "initial"});
-            });
+            mistakes_.attempt([&] { reader_.require_known(entry, "", model_keys()); });
             places_.set(entry.name, entry.place);
             top.emplace(entry.name, entry);
         }
@@ -366,6 +361,13 @@ private:
 };
 
 } // namespace
+
+const std::vector<std::string>& model_keys() {
+    static const std::vector<std::string> keys{
+        "name",   "text",  "source",      "time_unit", "parameters", "states",     "definitions", "modes",
+        "events", "jumps", "transitions", "sections",  "symmetries", "quantities", "drawing",     "initial"};
+    return keys;
+}
 
 Model parse_model(std::string_view text, const std::string& file) {
     return ModelReader(text, file).read();

@@ -50,13 +50,11 @@ nlohmann::json drawing_json(const Model& model) {
 }
 
 nlohmann::json parameters_of_model(const Model& model) {
-    nlohmann::json list = nlohmann::json::array();
-    const std::vector<double> values = all_parameter_values(model);
-    for (std::size_t i = 0; i < values.size(); ++i) {
+    nlohmann::json list = parameters_json(model);
+    for (std::size_t i = 0; i < list.size(); ++i) {
         const Parameter& parameter = model.parameters[i];
-        list.push_back(quantity_json(parameter.name, parameter.unit, first_words(parameter.text), values[i]));
-        list.back()["text"] = parameter.text;
-        list.back()["dependent"] = parameter.expression.has_value();
+        list[i]["text"] = parameter.text;
+        list[i]["dependent"] = parameter.expression.has_value();
     }
     return list;
 }

@@ -110,16 +110,20 @@ nlohmann::json dense_motion_json(const StoredRun& run, const PointRecord& point,
 
 } // namespace
 
-nlohmann::json motion_json(const ResultFile& file, const std::string& name, std::size_t number,
-                           const std::vector<std::string>& names, const std::function<bool()>& interrupted) {
-    const StoredRun run(file, name, {});
+nlohmann::json motion_json(const StoredRun& run, std::size_t number, const std::vector<std::string>& names,
+                           const std::function<bool()>& interrupted) {
     nlohmann::json one = run.record.is_branch() ? orbit_motion_json(run, orbit_numbered(run, number), names)
                          : is_measured_run(run.record)
                              ? record_motion_json(run, point_numbered(run, number), names)
                              : dense_motion_json(run, point_numbered(run, number), names, interrupted);
-    one["run"] = name;
+    one["run"] = run.record.name;
     one["number"] = number;
     return one;
+}
+
+nlohmann::json motion_json(const ResultFile& file, const std::string& run, std::size_t number,
+                           const std::vector<std::string>& names, const std::function<bool()>& interrupted) {
+    return motion_json(StoredRun(file, run, {}), number, names, interrupted);
 }
 
 } // namespace graze

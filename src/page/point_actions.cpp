@@ -1,21 +1,19 @@
 #include "page/point_actions.hpp"
 
+#include "graze/base/rounded.hpp"
 #include "graze/symbolic/transform.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 
 namespace graze {
 
 namespace {
 
-double three_digits(double value) {
-    return std::strtod(fmt::format("{:.3g}", value).c_str(), nullptr);
-}
+constexpr int proposed_digits = 3; ///< of bounds
 
 /// The parameters on which the rates of cyclic states depend: above all the frequency of a force, along which
 /// resonances lie, and which most authors follow first.
@@ -103,7 +101,7 @@ private:
             const double here = value_of_parameter(swept.name);
             swept.least = here;
             if (!(swept.greatest > here))
-                swept.greatest = three_digits(here + std::max(std::abs(here), 0.01));
+                swept.greatest = rounded(here + std::max(std::abs(here), 0.01), proposed_digits);
         }
         add("simulate", "Simulate from here", "the motion that begins here");
     }
@@ -186,8 +184,8 @@ std::vector<AlongParameter> proposed_parameters(const PointOrigin& origin) {
             return;
         const double value = values[p], reach = value != 0 ? std::abs(value) : 1;
         // A parameter seldom changes its sign.
-        const double low = three_digits(value > 0 ? value / 2 : value - reach),
-                     high = three_digits(value < 0 ? value / 2 : value + reach);
+        const double low = rounded(value > 0 ? value / 2 : value - reach, proposed_digits),
+                     high = rounded(value < 0 ? value / 2 : value + reach, proposed_digits);
         result.push_back({names[p], least.value_or(low), greatest.value_or(high)});
     };
     if (origin.run.empty() || origin.asked.is_measured()) {

@@ -39,16 +39,6 @@ nlohmann::json valued_json(const StoredRun& run, const std::vector<ResultColumn>
     return list;
 }
 
-nlohmann::json parameters_json(const Model& model) {
-    nlohmann::json list = nlohmann::json::array();
-    const std::vector<double> values = all_parameter_values(model);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        const Parameter& parameter = model.parameters[i];
-        list.push_back(quantity_json(parameter.name, parameter.unit, first_words(parameter.text), values[i]));
-    }
-    return list;
-}
-
 /// What is shown of a point in words.
 class PointFacts {
 public:
@@ -144,15 +134,6 @@ void add_samples(nlohmann::json& one, const StoredRun& run, const SampleSet& sam
     one["tables"].push_back(std::move(table));
 }
 
-/// The model at the parameters of a point.
-Model model_of_point(const StoredRun& run, const PointRecord& point) {
-    Model model = run.model;
-    for (std::size_t c = 0; c < run.record.coordinates.size(); ++c)
-        if (model.find_independent_parameter(run.record.coordinates[c].name))
-            model.set_parameter(run.record.coordinates[c].name, point.coordinates.at(c));
-    return model;
-}
-
 nlohmann::json motion_point_json(const StoredRun& run, const PointRecord& point) {
     const PointResult& result = point.result;
     const std::string label(name_of(result.label)), time_unit = run.model.time_unit;
@@ -206,8 +187,7 @@ nlohmann::json record_point_json(const StoredRun& run, const PointRecord& point)
 
 } // namespace
 
-nlohmann::json point_json(const ResultFile& file, const std::string& name, std::size_t number) {
-    const StoredRun run(file, name, {});
+nlohmann::json point_json(const StoredRun& run, std::size_t number) {
     nlohmann::json one;
     if (run.record.is_branch())
         one = orbit_json(run, orbit_numbered(run, number));
@@ -215,8 +195,12 @@ nlohmann::json point_json(const ResultFile& file, const std::string& name, std::
         one = record_point_json(run, point_numbered(run, number));
     else
         one = motion_point_json(run, point_numbered(run, number));
-    one["run"] = name;
+    one["run"] = run.record.name;
     return one;
+}
+
+nlohmann::json point_json(const ResultFile& file, const std::string& run, std::size_t number) {
+    return point_json(StoredRun(file, run, {}), number);
 }
 
 } // namespace graze

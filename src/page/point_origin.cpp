@@ -1,7 +1,6 @@
 #include "page/point_origin.hpp"
 
 #include "graze/results/orbit_motion.hpp"
-#include "graze/results/stored_run.hpp"
 #include "graze/study/stored_study.hpp"
 #include "page/stored_point.hpp"
 
@@ -13,21 +12,23 @@ std::string PointOrigin::name() const {
     return orbit && !orbit->label.empty() ? orbit->label : fmt::format("{}", number);
 }
 
-PointOrigin point_origin(const ResultFile& file, const Study& study, const std::string& run, std::size_t number) {
-    const StoredRun stored(file, run, {});
-    const StudyRun* const known = study.find_run(run);
-    PointOrigin origin{.run = run, .asked = known ? *known : stored_run(stored.record), .number = number};
+PointOrigin point_origin(const StoredRun& stored, const Study& study, std::size_t number) {
+    const StudyRun* const known = study.find_run(stored.record.name);
+    PointOrigin origin{
+        .run = stored.record.name, .asked = known ? *known : stored_run(stored.record), .number = number};
     origin.model = stored.model;
     if (stored.record.is_branch()) {
         origin.orbit = orbit_numbered(stored, number);
         origin.model = model_at(stored.model, origin.orbit->point.solution.orbit);
     } else if (!is_measured_run(stored.record)) {
         origin.point = point_numbered(stored, number);
-        for (std::size_t i = 0; i < stored.record.coordinates.size(); ++i)
-            if (stored.model.find_independent_parameter(stored.record.coordinates[i].name))
-                origin.model.set_parameter(stored.record.coordinates[i].name, origin.point->coordinates[i]);
+        origin.model = model_of_point(stored, *origin.point);
     }
     return origin;
+}
+
+PointOrigin point_origin(const ResultFile& file, const Study& study, const std::string& run, std::size_t number) {
+    return point_origin(StoredRun(file, run, {}), study, number);
 }
 
 PointOrigin point_origin(const Model& model) {

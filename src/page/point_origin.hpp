@@ -1,7 +1,7 @@
 #pragma once
 
 #include "graze/results/orbit_record.hpp"
-#include "graze/results/result_file.hpp"
+#include "graze/results/stored_run.hpp"
 #include "graze/study/study.hpp"
 
 #include <cstddef>
@@ -26,6 +26,7 @@ struct PointOrigin {
 };
 
 /// @throws InputError for an unknown run or point, and where the run cannot be read
+PointOrigin point_origin(const StoredRun& stored, const Study& study, std::size_t number);
 PointOrigin point_origin(const ResultFile& file, const Study& study, const std::string& run, std::size_t number);
 /// The beginning of a model.
 PointOrigin point_origin(const Model& model);

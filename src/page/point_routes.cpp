@@ -22,12 +22,12 @@ std::function<bool()> interrupted_by(const PageParts& parts) {
 HttpAnswer answer_point(PageParts& parts, const PageCall& call) {
     const std::string& run = call.query("run");
     const std::size_t number = count_of(call.query("number"), "number");
-    const ResultFile file = present_results(parts.session);
-    nlohmann::json answer = point_json(file, run, number);
+    const StoredRun stored(present_results(parts.session), run, {});
+    nlohmann::json answer = point_json(stored, number);
     answer["actions"] = nlohmann::json::array();
     if (parts.session.can_compute())
         answer["actions"] =
-            actions_json(actions_at(point_origin(file, *study_with_run(parts.session, file, run), run, number)));
+            actions_json(actions_at(point_origin(stored, *study_with_run(parts.session, stored.file, run), number)));
     return json_answer(answer);
 }
 

@@ -6,12 +6,14 @@
 #include "graze/base/printable.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/results/name_advice.hpp"
+#include "graze/study/plain_states.hpp"
 #include "graze/study/study_keys.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "model/model_file_toml.hpp"
 #include "model/model_validate.hpp"
 #include "model/written_text.hpp"
 #include "results/schema.hpp"
+#include "study/study_reader.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -178,10 +180,7 @@ private:
         if (origin_.run.empty() || (!origin_.asked.has_motions() && !origin_.asked.is_branch()))
             return;
         const std::string& section = origin_.asked.attractor().section;
-        const auto& all = origin_.model.sections;
-        const auto phase = std::ranges::find_if(all, [](const Section& one) { return one.state.has_value(); });
-        const std::string usual = phase != all.end() ? phase->name : all.empty() ? "" : all.front().name;
-        if (!section.empty() && section != usual)
+        if (!section.empty() && section != usual_section(origin_.model))
             add("section", toml_string(section));
     }
 
@@ -261,29 +260,13 @@ private:
     static std::string monitor_text(const Monitor& one) {
         const bool number = one.segment.find_first_not_of("0123456789") == std::string::npos;
         const std::string segment = number ? one.segment : toml_string(one.segment);
-        const auto with_segment = [&](const char* key) {
-            const std::string at = one.segment.empty() ? "" : fmt::format(", at = {}", segment);
-            return fmt::format("{{ {} = {}{} }}", key, value_of_written(written_text(one.expression)), at);
-        };
-        switch (one.kind) {
-        case Monitor::Kind::value:
-            return with_segment("value");
-        case Monitor::Kind::start:
-            return with_segment("start");
-        case Monitor::Kind::maximum:
-            return with_segment("maximum");
-        case Monitor::Kind::minimum:
-            return with_segment("minimum");
-        case Monitor::Kind::mean:
-            return with_segment("mean");
-        case Monitor::Kind::norm:
-            return with_segment("norm");
-        case Monitor::Kind::multiplier:
+        if (one.kind == Monitor::Kind::duration)
+            return one.segment.empty() ? "\"period\"" : fmt::format("{{ duration = {} }}", segment);
+        if (one.kind == Monitor::Kind::multiplier)
             return fmt::format("{{ multiplier = {} }}", one.place);
-        case Monitor::Kind::duration:
-            break;
-        }
-        return one.segment.empty() ? "\"period\"" : fmt::format("{{ duration = {} }}", segment);
+        return fmt::format("{{ {} = {}{} }}", monitor_kinds().at(static_cast<std::size_t>(one.kind)),
+                           value_of_written(written_text(one.expression)),
+                           one.segment.empty() ? "" : fmt::format(", at = {}", segment));
     }
 
     /// A name that says where the run comes from and what it is.

@@ -64,13 +64,10 @@ double time_of_steps(const Model& model, std::size_t steps) {
 
 double usual_duration(const Model& model) {
     constexpr std::size_t steps_without_phase = 300;
-    const bool has_phase =
-        std::ranges::any_of(model.states, [](const State& state) { return state.period.has_value(); });
-    if (has_phase) {
+    const auto phase = std::ranges::find_if(model.states, [](const State& state) { return state.period.has_value(); });
+    if (phase != model.states.end()) {
         RunLengthRequest request;
-        for (const State& state : model.states)
-            if (state.period && request.phase.empty())
-                request.phase = state.name;
+        request.phase = phase->name;
         const RunLength length = run_length(model, request);
         if (length.shown.expected)
             return *length.shown.expected;

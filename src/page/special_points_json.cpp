@@ -8,14 +8,13 @@
 
 namespace graze {
 
-nlohmann::json special_points_json(const ResultFile& file, const std::string& name) {
-    const StoredRun run(file, name, {});
+nlohmann::json special_points_json(const StoredRun& run) {
     nlohmann::json columns = nlohmann::json::array(), rows = nlohmann::json::array();
     for (const auto* list : {&run.record.coordinates, &run.record.values})
         for (const ResultColumn& column : *list)
             columns.push_back(quantity_json(column.name, column.unit, words_of(run, column.name)));
     if (run.record.is_branch())
-        for (const OrbitRecord& record : file.orbits(name, true)) {
+        for (const OrbitRecord& record : run.file.orbits(run.record.name, true)) {
             nlohmann::json row = orbit_facts(run.record, record);
             std::vector<double> values = parameters_of(run, record);
             const std::vector<double>& monitors = record.point.monitors;
@@ -23,10 +22,14 @@ nlohmann::json special_points_json(const ResultFile& file, const std::string& na
             row["coordinates"] = numbers_json(values);
             rows.push_back(std::move(row));
         }
-    nlohmann::json one{{"run", name}};
+    nlohmann::json one{{"run", run.record.name}};
     one["columns"] = std::move(columns);
     one["rows"] = std::move(rows);
     return one;
+}
+
+nlohmann::json special_points_json(const ResultFile& file, const std::string& run) {
+    return special_points_json(StoredRun(file, run, {}));
 }
 
 } // namespace graze

@@ -1,8 +1,10 @@
 #include "page/stored_page.hpp"
 
 #include "graze/base/input_error.hpp"
+#include "graze/base/rounded.hpp"
 #include "graze/picture/result_picture.hpp"
 #include "graze/results/name_advice.hpp"
+#include "graze/results/run_kind.hpp"
 #include "graze/results/stored_run.hpp"
 #include "graze/study/stored_study.hpp"
 #include "page/figure_json.hpp"
@@ -14,6 +16,7 @@
 #include "page/point_json.hpp"
 #include "page/runs_json.hpp"
 #include "page/special_points_json.hpp"
+#include "page/stored_point.hpp"
 #include "page/table_json.hpp"
 
 #include <fmt/format.h>
@@ -58,10 +61,7 @@ std::vector<std::string> shown_of_motion(const Model& model) {
     return names;
 }
 
-/// A number with the digits that can be seen.
-double seen_digits(double value) {
-    return std::isfinite(value) ? std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr) : value;
-}
+constexpr int digits_seen = 6; ///< of numbers
 
 /// Leaves out rows of a motion and digits of its numbers, so that more motions have room.
 void shorten_motion(nlohmann::json& motion) {
@@ -76,7 +76,7 @@ void shorten_motion(nlohmann::json& motion) {
     thin_rows(rows, rows_of_motion);
     nlohmann::json values = nlohmann::json::array();
     for (std::vector<double>& column : rows.values) {
-        std::ranges::transform(column, column.begin(), seen_digits);
+        std::ranges::transform(column, column.begin(), [](double value) { return rounded(value, digits_seen); });
         values.push_back(numbers_json(column));
     }
     motion["values"] = std::move(values);
@@ -144,11 +144,11 @@ private:
                                  name_advice(name, all, "there are none"));
         for (const std::string& name : all)
             if (options_.runs.empty() || std::ranges::find(options_.runs, name) != options_.runs.end())
-                runs_.push_back(*file_.find_run(name));
+                runs_.emplace_back(file_, name, Place{});
     }
 
     bool is_shown(const std::string& name) const {
-        return std::ranges::find(runs_, name, &RunRecord::name) != runs_.end();
+        return std::ranges::any_of(runs_, [&](const StoredRun& run) { return run.record.name == name; });
     }
 
     void add_runs() {
@@ -157,9 +157,9 @@ private:
                       [&](const nlohmann::json& run) { return !is_shown(run.at("name").get<std::string>()); });
         page_.add("runs", json_text(runs));
         ObjectText models, special;
-        for (const RunRecord& run : runs_) {
-            models.add(run.name, json_text(model_json(StoredRun(file_, run.name, {}).model)));
-            special.add(run.name, json_text(special_points_json(file_, run.name).at("rows")));
+        for (const StoredRun& run : runs_) {
+            models.add(run.record.name, json_text(model_json(run.model)));
+            special.add(run.record.name, json_text(special_points_json(run).at("rows")));
         }
         page_.add("models", models.text());
         page_.add("special_points", special.text());
@@ -177,11 +177,12 @@ private:
             if (add_figure(one.name, one, !is_asked_for(one)))
                 listed.pictures.push_back(one);
         StudyPicture branches;
-        for (const RunRecord& run : runs_) {
+        for (const StoredRun& stored : runs_) {
+            const RunRecord& run = stored.record;
             if (file_.point_count(run.name) == 0)
                 continue;
             add_figure({{"runs", {run.name}}}, default_picture(run), true);
-            if (run.is_followed() && run.kind != "curve") {
+            if (run.is_followed() && run.kind != name_of(RunKind::curve)) {
                 if (branches.runs.empty())
                     branches = default_picture(run);
                 else
@@ -216,8 +217,8 @@ private:
     /// Special points of all runs come first, then others of all runs in turn.
     void add_points() {
         std::vector<std::vector<std::size_t>> numbers;
-        for (const RunRecord& run : runs_)
-            numbers.push_back(numbers_of(run));
+        for (const StoredRun& run : runs_)
+            numbers.push_back(numbers_of(run.record));
         std::size_t most = 0;
         for (const std::vector<std::size_t>& one : numbers)
             most = std::max(most, one.size());
@@ -248,9 +249,9 @@ private:
     }
 
     /// @return whether there was room
-    bool add_point(const RunRecord& run, std::size_t number) {
-        const std::string key = fmt::format("{}/{}", run.name, number);
-        nlohmann::json point = point_json(file_, run.name, number);
+    bool add_point(const StoredRun& run, std::size_t number) {
+        const std::string key = fmt::format("{}/{}", run.record.name, number);
+        nlohmann::json point = point_json(run, number);
         point["actions"] = nlohmann::json::array(); // nothing can be computed
         const std::string text = json_text(point), motion = motion_text(run, number);
         if (page_.size() + points_.size() + motions_.size() + text.size() + motion.size() > options_.most_bytes)
@@ -262,15 +263,12 @@ private:
     }
 
     /// Empty: it cannot be computed.
-    std::string motion_text(const RunRecord& run, std::size_t number) {
+    static std::string motion_text(const StoredRun& run, std::size_t number) {
         try {
             std::size_t steps = 0; // instead of a time, so that the same results make the same page
-            const StoredRun stored(file_, run.name, {});
-            nlohmann::json motion =
-                motion_json(file_, run.name, number,
-                            run.kind == "record" || run.kind == "identify" ? std::vector<std::string>()
-                                                                           : shown_of_motion(stored.model),
-                            [&] { return ++steps > most_steps_of_motion; });
+            nlohmann::json motion = motion_json(
+                run, number, is_measured_run(run.record) ? std::vector<std::string>() : shown_of_motion(run.model),
+                [&] { return ++steps > most_steps_of_motion; });
             shorten_motion(motion);
             return json_text(motion);
         } catch (const InputError&) {
@@ -281,7 +279,7 @@ private:
     const ResultFile& file_;
     const PageFileOptions& options_;
     Study study_;
-    std::vector<RunRecord> runs_;
+    std::vector<StoredRun> runs_;
     std::vector<std::size_t> special_; ///< number of special points of each run
     nlohmann::json figures_ = nlohmann::json::array();
     ObjectText page_, points_, motions_;

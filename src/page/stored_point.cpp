@@ -18,6 +18,14 @@ PointRecord point_numbered(const StoredRun& run, std::size_t number) {
                      fmt::format("it has {} points", run.points()));
 }
 
+Model model_of_point(const StoredRun& run, const PointRecord& point) {
+    Model model = run.model;
+    for (std::size_t c = 0; c < run.record.coordinates.size(); ++c)
+        if (model.find_independent_parameter(run.record.coordinates[c].name))
+            model.set_parameter(run.record.coordinates[c].name, point.coordinates.at(c));
+    return model;
+}
+
 std::string name_at(const std::vector<std::string>& names, std::size_t index) {
     return index < names.size() ? names[index] : std::string();
 }

@@ -16,6 +16,9 @@ OrbitRecord orbit_numbered(const StoredRun& run, std::size_t number);
 /// Of other runs, with its samples.
 PointRecord point_numbered(const StoredRun& run, std::size_t number);
 
+/// The model at the parameters of a point of a run without orbits.
+Model model_of_point(const StoredRun& run, const PointRecord& point);
+
 /// The name at an index; empty beyond the last, which is how a direction or sampling that the run does not have is
 /// read.
 std::string name_at(const std::vector<std::string>& names, std::size_t index);

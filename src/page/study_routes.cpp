@@ -71,13 +71,10 @@ HttpAnswer answer_words(PageParts&, const PageCall&) {
     nlohmann::json functions = nlohmann::json::array();
     for (const FunctionName& function : function_names())
         functions.push_back(function.name);
-    return json_answer(
-        {{"functions", functions},
-         {"models", shipped_models()},
-         {"run_kinds", kinds_of_runs()},
-         {"model_keys",
-          {"name", "text", "source", "time_unit", "parameters", "states", "definitions", "modes", "events", "jumps",
-           "transitions", "sections", "symmetries", "quantities", "drawing", "initial"}}});
+    return json_answer({{"functions", functions},
+                        {"models", shipped_models()},
+                        {"run_kinds", kinds_of_runs()},
+                        {"model_keys", model_keys()}});
 }
 
 HttpAnswer answer_study(PageParts& parts, const PageCall&) {
@@ -152,7 +149,7 @@ HttpAnswer propose_run(PageParts& parts, const PageCall& call) {
     const bool at_point = !run.empty() && call.body.contains("number") && !call.body["number"].is_null();
     std::shared_ptr<const Study> study = parts.session.study();
     if (at_point || (file && !run.empty()))
-        study = study_with_run(parts.session, present_results(parts.session), run);
+        study = study_with_run(parts.session, file ? *file : present_results(parts.session), run);
     const PointOrigin origin = at_point ? point_origin(*file, *study, run, count_member(call.body, "number"))
                                         : origin_of_model(parts.session, *study, run, !wish.study_model.empty());
     const ProposedRun proposed = proposed_run(origin, *study, file ? &*file : nullptr, wish);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace graze {
@@ -112,13 +113,14 @@ public:
         DenseMotion motion;
         if (curve)
             motion = dense_motion(run, point, names, picture_->place, portrait_ ? WhenLong::last : WhenLong::coarser);
-        const std::set<std::size_t> sampled = curve ? sampled_events(*picture_, run) : std::set<std::size_t>{};
+        if (curve && !sampled_.contains(run.record.name))
+            sampled_[run.record.name] = sampled_events(*picture_, run);
         const std::string title = title_of_motion(*picture_, run, point, at);
         for (std::size_t v = 1; v < names.size(); ++v) {
             FigurePanel& panel = panel_for(run, x, names[v], v - 1, title);
             const std::size_t before = panel.series.size();
             if (curve)
-                add_curve(panel, motion, v, title, run.model.time_unit, sampled);
+                add_curve(panel, motion, v, title, run.model.time_unit, sampled_.at(run.record.name));
             add_samples(panel, run, point, x, names[v],
                         curve ? FigureSeries::Style::circles : FigureSeries::Style::dots);
             show_point(panel, before, run.record.name, point.number);
@@ -209,7 +211,8 @@ private:
 
     const StudyPicture* picture_;
     bool portrait_, over_ = false;
-    std::set<std::pair<std::string, std::size_t>> shown_; ///< runs and points that are drawn already
+    std::map<std::string, std::set<std::size_t>> sampled_; ///< by runs: events that are drawn as samples
+    std::set<std::pair<std::string, std::size_t>> shown_;  ///< runs and points that are drawn already
     Figure figure_;
     std::size_t colour_ = 0;
 };

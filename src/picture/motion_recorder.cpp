@@ -19,13 +19,6 @@ std::size_t MotionPanelChoice::column(NamedValue quantity) {
     return columns.size() - 1;
 }
 
-std::vector<bool> usual_marks(const Model& model) {
-    std::vector<bool> marked;
-    for (const Event& event : model.events)
-        marked.push_back(event.kind == EventKind::barrier && is_met_by_motion(model, event));
-    return marked;
-}
-
 MotionRecorder::MotionRecorder(const Simulation& simulation, MotionPanelChoice contents, int points_of_step)
     : simulation_(simulation), contents_(std::move(contents)), evaluate_(simulation.model(), contents_.columns),
       points_of_step_(points_of_step) {
@@ -111,8 +104,6 @@ std::string MotionRecorder::section_names() const {
 
 void MotionRecorder::finish(const Trajectory& trajectory) {
     motion_.outcome = trajectory.outcome();
-    if (trajectory.outcome().ending == Ending::singular)
-        singularity_ = trajectory.outcome().time;
 }
 
 } // namespace graze

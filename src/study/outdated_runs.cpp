@@ -18,7 +18,7 @@ std::string wanted_fingerprint(const StudyRun& wanted, const Study& study, const
     StudyRun run = wanted.is_measured() ? measured_run(wanted, file) : with_parameters_found(wanted, file);
     if (run.start && !run.is_branch())
         set_parameters(run.model, point_to_start_from(run, study, file).parameters);
-    return record_of(run, parent_fingerprint(run, fingerprints), 0).fingerprint;
+    return run_fingerprint(run, parent_fingerprint(run, fingerprints));
 }
 
 } // namespace
@@ -48,7 +48,7 @@ std::set<std::string> outdated_runs(const Study& study, const ResultFile& file) 
         }
         // A run that could not begin has the fingerprint of what was asked for, without what others would have found.
         if (!same && failed.contains(run.name))
-            same = record_of(run, parent_fingerprint(run, stored), 0).fingerprint == found->second;
+            same = run_fingerprint(run, parent_fingerprint(run, stored)) == found->second;
         if (!same)
             outdated.insert(run.name);
     }

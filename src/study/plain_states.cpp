@@ -40,4 +40,10 @@ std::vector<std::string> plain_states(const Model& model) {
     return names;
 }
 
+std::string usual_section(const Model& model) {
+    const auto phase =
+        std::ranges::find_if(model.sections, [](const Section& section) { return section.state.has_value(); });
+    return phase != model.sections.end() ? phase->name : model.sections.empty() ? "" : model.sections.front().name;
+}
+
 } // namespace graze

@@ -111,19 +111,15 @@ private:
             points_ /= 2;
         for (std::size_t i = 0; i < rows(); ++i)
             needed[i] = thin ? i % 2 == 0 || i + 1 == rows() : 2 * i >= rows();
-        const auto keep = [&](std::vector<std::size_t>& places) {
+        // What is beside the places that are gone goes with them: they are the first ones.
+        const auto keep = [&](std::vector<std::size_t>& places, std::vector<std::size_t>& beside) {
             for (const std::size_t place : places)
                 needed[place] = needed[place] || thin;
-            std::erase_if(places, [&](std::size_t place) { return !needed[place]; });
+            const std::size_t gone = std::erase_if(places, [&](std::size_t place) { return !needed[place]; });
+            beside.erase(beside.begin(), beside.begin() + static_cast<std::ptrdiff_t>(gone));
         };
-        const std::size_t arcs = motion_.begins.size(), impacts = motion_.impacts.size();
-        keep(motion_.begins);
-        keep(motion_.impacts);
-        // Those that are gone are the first ones.
-        motion_.modes.erase(motion_.modes.begin(),
-                            motion_.modes.begin() + static_cast<std::ptrdiff_t>(arcs - motion_.begins.size()));
-        motion_.met.erase(motion_.met.begin(),
-                          motion_.met.begin() + static_cast<std::ptrdiff_t>(impacts - motion_.impacts.size()));
+        keep(motion_.begins, motion_.modes);
+        keep(motion_.impacts, motion_.met);
         std::vector<std::size_t> places(rows() + 1, 0);
         for (std::size_t i = 0; i < rows(); ++i)
             places[i + 1] = places[i] + (needed[i] ? 1 : 0);
@@ -163,14 +159,22 @@ Expression value_of(const StoredRun& run, const Model& model, const std::string&
     return named_value(model, name, place).value;
 }
 
-} // namespace
-
+/// True when an event depends on states other than phases: the motion meets it, rather than the clock.
 bool is_met_by_motion(const Model& model, const Event& event) {
     const std::vector<Expression> symbols = symbols_of({{Model(model).expand(event.function)}});
     return std::any_of(symbols.begin(), symbols.end(), [&](const Expression& symbol) {
         const auto state = model.find_state(symbol.name());
         return state && !model.states[*state].period;
     });
+}
+
+} // namespace
+
+std::vector<bool> usual_marks(const Model& model) {
+    std::vector<bool> marked;
+    for (const Event& event : model.events)
+        marked.push_back(event.kind == EventKind::barrier && is_met_by_motion(model, event));
+    return marked;
 }
 
 DenseMotion dense_motion(const StoredRun& run, const PointRecord& point, const std::vector<std::string>& names,
@@ -208,10 +212,7 @@ DenseMotion dense_motion(const StoredRun& run, const PointRecord& point, const s
         values.push_back(name == "t" ? none : value_of(run, model, name, place));
     const Simulation simulation{System(model)};
     const std::vector<double> parameters = model.parameter_values();
-    std::vector<bool> marked;
-    for (const Event& event : model.events)
-        marked.push_back(event.kind == EventKind::barrier && is_met_by_motion(model, event));
-    DenseRecorder recorder(simulation.system().function_of(values), parameters, model.periods(), std::move(marked),
+    DenseRecorder recorder(simulation.system().function_of(values), parameters, model.periods(), usual_marks(model),
                            when_long, mode, interrupted);
     Trajectory trajectory(simulation, parameters, borrowed(recorder));
     trajectory.start(state, mode, 0, duration);

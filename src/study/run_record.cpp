@@ -56,7 +56,17 @@ void require_fitting(const StudyRun& run) {
     }
 }
 
+/// @param equations text of the model without its drawing: results stay those of the run when that changes
+std::string fingerprint_from(const std::string& equations, const std::string& settings, const std::string& parent) {
+    return fingerprint_of(fmt::format("{} {} {} {}", version_of_algorithms, equations, settings, parent));
+}
+
 } // namespace
+
+std::string run_fingerprint(const StudyRun& run, const std::string& parent_fingerprint) {
+    require_fitting(run);
+    return fingerprint_from(write_equations(run.model), settings_of(run), parent_fingerprint);
+}
 
 RunRecord record_of(const StudyRun& run, const std::string& parent_fingerprint, std::size_t points) {
     require_fitting(run);
@@ -67,10 +77,8 @@ RunRecord record_of(const StudyRun& run, const std::string& parent_fingerprint, 
     record.model = write_model(run.model);
     record.settings = settings_of(run);
     record.version = GRAZE_VERSION;
-    // Numbers do not depend on the drawing: results stay those of the run when it changes.
-    record.fingerprint = fingerprint_of(fmt::format("{} {} {} {}", version_of_algorithms,
-                                                    run.model.drawing ? write_equations(run.model) : record.model,
-                                                    record.settings, parent_fingerprint));
+    record.fingerprint = fingerprint_from(run.model.drawing ? write_equations(run.model) : record.model,
+                                          record.settings, parent_fingerprint);
     if (run.is_branch())
         add_found_parameters(run, record);
     if (run.kind == RunKind::record && !run.record().coordinate.empty())

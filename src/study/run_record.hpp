@@ -11,6 +11,10 @@
 
 namespace graze {
 
+/// A text that differs for runs whose results differ; see RunRecord.
+/// @param parent_fingerprint of the runs that it needs
+std::string run_fingerprint(const StudyRun& run, const std::string& parent_fingerprint);
+
 /// What results keep of a run besides its points.
 /// @param parent_fingerprint of the runs that it needs
 /// @param points planned

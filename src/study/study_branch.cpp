@@ -97,8 +97,7 @@ namespace {
 
 /// Reads what a monitor measures: KIND = "EXPRESSION", or duration = "SEGMENT".
 void read_monitor_kind(const StudyReader& reader, const Model& model, const TomlEntry& item, Monitor& monitor) {
-    const std::vector<std::string> kinds{"value",   "start", "duration", "maximum",
-                                         "minimum", "mean",  "norm",     "multiplier"};
+    const std::vector<std::string>& kinds = monitor_kinds();
     monitor.kind = static_cast<Monitor::Kind>(std::find(kinds.begin(), kinds.end(), item.name) - kinds.begin());
     if (monitor.kind == Monitor::Kind::multiplier) {
         monitor.unit = "";
@@ -169,6 +168,12 @@ void read_monitors(const StudyReader& reader, StudyRun& run, const TomlEntry& en
     monitors.clear();
     reader.each_of(entry, {},
                    [&](const TomlEntry& item) { monitors.push_back(read_monitor(reader, run.model, item)); });
+}
+
+const std::vector<std::string>& monitor_kinds() {
+    static const std::vector<std::string> kinds{"value",   "start", "duration", "maximum",
+                                                "minimum", "mean",  "norm",     "multiplier"};
+    return kinds;
 }
 
 std::vector<Monitor> usual_monitors(const Model& model) {

@@ -164,6 +164,8 @@ void check_needs(const StudyRun& run, const Study& study);
 
 /// The monitors of branches whose study names none: the period, and the greatest value of each state.
 std::vector<Monitor> usual_monitors(const Model& model);
+/// The keys of what monitors measure, in the order of Monitor::Kind.
+const std::vector<std::string>& monitor_kinds();
 /// Settings that follow from others, once the keys of a run of orbits have been read.
 void complete_branch(StudyRun& run, const RunKeys& keys);
 /// @throws InputError when they do not go together

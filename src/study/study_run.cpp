@@ -1,6 +1,7 @@
 #include "graze/base/file_name.hpp"
 #include "graze/base/with_place.hpp"
 #include "graze/model/catalogue.hpp"
+#include "graze/study/plain_states.hpp"
 #include "study/key_reader.hpp"
 #include "study/run_description.hpp"
 
@@ -98,11 +99,8 @@ void complete_motion(StudyRun& run) {
 void complete(StudyRun& run, const TomlEntry& entry) {
     const Model& model = run.model;
     AttractorOptions& attractor = run.attractor();
-    if (attractor.section.empty() && !model.sections.empty()) {
-        const auto phase = std::find_if(model.sections.begin(), model.sections.end(),
-                                        [](const Section& section) { return section.state.has_value(); });
-        attractor.section = (phase == model.sections.end() ? model.sections.front() : *phase).name;
-    }
+    if (attractor.section.empty())
+        attractor.section = usual_section(model);
     if (run.values.empty())
         for (std::size_t i = 0; i < model.states.size(); ++i)
             if (!model.states[i].period && !model.states[i].drifting) {

@@ -54,7 +54,7 @@ void require_fitting_point(const SpecialPoint& point, const Model& model) {
 
 std::string bytes_of(const DeviceSolver& solver) {
     ByteWriter bytes(solver_mark);
-    bytes(std::string(GRAZE_VERSION), write_model(solver.system().model()), solver.control().place());
+    bytes(std::string(GRAZE_VERSION), write_equations(solver.system().model()), solver.control().place());
     std::vector<std::size_t> others;
     for (const ParameterId one : solver.others())
         others.push_back(one.place());

@@ -111,6 +111,14 @@ export class Bench {
     return page;
   }
 
+  /** The page of results that the test may change, and its server. */
+  async openOwn(options) {
+    const server = await this.serve(this.ownResults());
+    const page = await this.open(server.address, options);
+    await page.waitForSelector(".diagram .u-over");
+    return { server, page };
+  }
+
   takeComplaints() {
     return this.complaints.splice(0);
   }
@@ -142,6 +150,15 @@ export class Bench {
 /** Waits until a condition in the page holds. */
 export async function until(page, condition, ...given) {
   await page.waitForFunction(condition, given.length === 1 ? given[0] : given, { timeout: 30000 });
+}
+
+/** Waits until a run is computed. */
+export async function isComplete(page, run) {
+  await until(
+    page,
+    (name) => [...document.querySelectorAll(".runs .run.complete .name")].some((one) => one.textContent === name),
+    run,
+  );
 }
 
 /** The ranges of the axes of a diagram. */

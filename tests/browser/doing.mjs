@@ -1,19 +1,12 @@
 // Doing: going on from a point, moving parameters, texts, and a server that ends.
 import assert from "node:assert/strict";
-import { placeOfSpecial, until, viewAfter, viewOf } from "./bench.mjs";
-
-async function openOwn(bench, options) {
-  const server = await bench.serve(bench.ownResults());
-  const page = await bench.open(server.address, options);
-  await page.waitForSelector(".diagram .u-over");
-  return { server, page };
-}
+import { isComplete, placeOfSpecial, until, viewAfter, viewOf } from "./bench.mjs";
 
 export const cases = [
   [
     "goes on from a grazing, and points arrive",
     async (bench) => {
-      const { server, page } = await openOwn(bench);
+      const { server, page } = await bench.openOwn();
       await placeOfSpecial(page, "no_impact", "GR1");
       const whole = await viewOf(page);
       await page.locator(".figure .diagram").first().press("+");
@@ -24,11 +17,7 @@ export const cases = [
       assert.match(await text.inputValue(), /^\[runs\.[^\]]+\]\n(.*\n)*start = \{ run = "no_impact", point = "GR1"/);
       const name = /\[runs\.([^\]]+)\]/.exec(await text.inputValue())[1];
       await page.locator(".action-form").getByRole("button", { name: "Compute" }).click();
-      await until(
-        page,
-        (run) => [...document.querySelectorAll(".runs .run.complete .name")].some((one) => one.textContent === run),
-        name,
-      );
+      await isComplete(page, name);
       await until(
         page,
         (run) => [...document.querySelectorAll(".special .row > span")].some((one) => one.textContent === run),
@@ -71,7 +60,7 @@ export const cases = [
   [
     "an editor shows mistakes at their places, and completes",
     async (bench) => {
-      const { server, page } = await openOwn(bench);
+      const { server, page } = await bench.openOwn();
       await page.getByRole("tab", { name: "Study" }).click();
       const content = page.getByLabel("Text of the study");
       await content.click();

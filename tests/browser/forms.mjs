@@ -32,9 +32,7 @@ export const cases = [
   [
     "the text of a proposal follows its fields, and wrong ones are told",
     async (bench) => {
-      const server = await bench.serve(bench.ownResults());
-      const page = await bench.open(server.address);
-      await page.waitForSelector(".diagram .u-over");
+      const { server, page } = await bench.openOwn();
       await placeOfSpecial(page, "no_impact", "GR1");
       await page.getByRole("button", { name: "Beyond the grazing" }).click();
       await textWith(page, /along = \{ V = \[0\.01, 0\.4\] \}/);

@@ -3,17 +3,9 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
-import { until } from "./bench.mjs";
+import { isComplete, until } from "./bench.mjs";
 
 const documented = readFileSync(fileURLToPath(new URL("../../docs/page.md", import.meta.url)), "utf8");
-
-async function isComplete(page, run) {
-  await until(
-    page,
-    (name) => [...document.querySelectorAll(".runs .run.complete .name")].some((one) => one.textContent === name),
-    run,
-  );
-}
 
 /** Clicks what computes the text that the form proposes, once it is there. */
 async function compute(page, run) {

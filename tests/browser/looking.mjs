@@ -186,9 +186,7 @@ export const cases = [
       await page.getByRole("heading", { name: "touches_frequency: DG1" }).waitFor();
       await page.reload();
       await page.getByRole("heading", { name: "touches_frequency: DG1" }).waitFor();
-      assert.ok(
-        await page.getByRole("heading", { name: "Touches and folds by the frequency of the force" }).isVisible(),
-      );
+      await page.getByRole("heading", { name: "Touches and folds by the frequency of the force" }).waitFor();
       await bench.shoot(page, "curves-light-1366");
     },
   ],

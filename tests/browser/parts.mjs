@@ -263,6 +263,7 @@ export const cases = [
     async (bench) => {
       const { drawnOver } = await load(bench, "merged_figure");
       const { haveSameAxes, partsOf } = await load(bench, "joined_figure");
+      const { Workspace } = await load(bench, "workspace");
       const quantity = (name) => ({ name, unit: "", words: "" });
       const run = (name, is_branch, coordinates, values, kind = "") => ({
         ...{ name, kind, is_branch, coordinates: coordinates.map(quantity), values: values.map(quantity) },
@@ -275,7 +276,7 @@ export const cases = [
       assert.ok(!haveSameAxes(sweep, other) && !haveSameAxes(branch, curve));
       assert.ok(!haveSameAxes(branch, run("orbit", true, ["V", "k"], ["max_x"], "orbit")));
       assert.ok(!haveSameAxes(sweep, run("poor", true, ["V"], ["size"])));
-      const workspace = { run: (name) => (name === "sweep" ? sweep : branch) };
+      const workspace = Object.assign(new Workspace(null, null), { runs: [sweep, branch] });
       const parts = partsOf(workspace, { runs: ["branch", "sweep"] });
       assert.deepEqual([parts.others.y, parts.branches.y], [["x"], ["max_x"]]);
       assert.equal(partsOf(workspace, { runs: ["sweep"] }), null);

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace graze {
 
@@ -11,6 +12,8 @@ namespace graze {
 /// @param file the name to use in messages
 /// @throws InputError with the place for one mistake, InputErrors for several
 Model parse_model(std::string_view text, const std::string& file);
+/// The keys and tables that a model file may have at its top.
+const std::vector<std::string>& model_keys();
 /// Reads a model file. @throws InputError also when the file cannot be read
 Model read_model(const std::string& path);
 /// Returns the text of a model file that reads back to the same model.

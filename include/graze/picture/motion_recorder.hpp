@@ -28,9 +28,6 @@ struct MotionPanelChoice {
     std::size_t column(NamedValue quantity);
 };
 
-/// The contacts that a picture marks where nothing is chosen: those with barriers that the motion meets.
-std::vector<bool> usual_marks(const Model& model);
-
 /// Observer that records what a picture of a trajectory needs: dense points on every arc, the points before and after
 /// each contact, and passages of sections.
 class MotionRecorder : public Observer {
@@ -64,7 +61,9 @@ public:
     /// Names of the marked sections, separated by commas.
     std::string section_names() const;
     /// Time of the singularity at which the motion ended; none if it ended otherwise.
-    std::optional<double> singularity() const { return singularity_; }
+    std::optional<double> singularity() const {
+        return motion_.outcome.ending == Ending::singular ? std::optional(motion_.outcome.time) : std::nullopt;
+    }
     /// False when the motion was too long: only its beginning is recorded.
     bool is_complete() const { return complete_; }
 
@@ -79,7 +78,6 @@ private:
     DenseMotion motion_;
     std::vector<Jump> jumps_;
     std::vector<Row> passages_;
-    std::optional<double> singularity_;
     bool new_arc_ = true, after_impact_ = false, complete_ = true;
 };
 

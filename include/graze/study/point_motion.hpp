@@ -24,7 +24,7 @@ struct DenseMotion {
     std::vector<std::vector<double>> values; ///< for each name that was asked for
     std::vector<std::size_t> begins;         ///< rows at which a new arc begins after a jump; row 0 is not among them
     std::vector<std::size_t> impacts;        ///< rows just before and just after contacts, except events of time alone
-    std::vector<std::size_t> met;            ///< the event of each row of `impacts`
+    std::vector<std::size_t> met;            ///< the event of each row of `impacts`; only of dense_motion
     std::vector<std::size_t> modes;          ///< mode of each arc: of the first, then of those in `begins`
     std::vector<double> periods;             ///< of values that are cyclic states; 0 for others
     double start = 0; ///< time of the first row: later than that of the motion if it was too long to be kept whole
@@ -37,8 +37,8 @@ enum class WhenLong {
     last     ///< only its end is kept
 };
 
-/// True when an event depends on states other than phases: the motion meets it, rather than the clock.
-bool is_met_by_motion(const Model& model, const Event& event);
+/// The contacts that a picture marks where nothing is chosen: those with barriers that the motion meets.
+std::vector<bool> usual_marks(const Model& model);
 
 /// Computes the motion of a point again, with several rows in each step: of an orbit one period, of a simulation all.
 /// @param names of values or expressions; "t" is the time
