@@ -19,11 +19,13 @@ namespace {
 
 constexpr const char* model = R"(
 name = "ball"
+[parameters]
+g = 1
 [states]
 x = 0
 v = 1
 [modes.flight]
-rates = { x = "v", v = "-1" }
+rates = { x = "v", v = "-g" }
 watch = ["floor"]
 [events]
 floor = "x"
@@ -45,8 +47,10 @@ graze::RunRecord run_of(const char* kind) {
     run.states = {{"x", "m"}, {"v", ""}};
     run.values = {{"v", ""}};
     run.modes = {"flight"};
-    run.coordinates = {{"x", "m"}};
-    if (!run.is_branch()) {
+    if (run.is_branch()) {
+        run.coordinates = {{"g", ""}};
+    } else {
+        run.coordinates = {{"x", "m"}};
         run.samplings = {"s"};
         run.directions = {"up"};
     }
@@ -89,6 +93,7 @@ std::string make_image() {
         orbit.label = "GR1";
         orbit.point.type = graze::PointType::grazing;
         orbit.point.solution.orbit.signature.push_back({});
+        orbit.point.solution.orbit.parameters = {1};
         orbit.point.solution.orbit.starts = {{0, 1}};
         orbit.point.solution.orbit.durations = {2};
         orbit.point.solution.multipliers = {{0.5, 0}};
