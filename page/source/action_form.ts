@@ -67,13 +67,18 @@ export function actionButtons(
 }
 
 /** What can be asked about a point at once, without adding to the study. */
-export function pointButtons(workspace: Workspace, point: Point, acts: ActionActs): FurtherButton[] {
+export function pointButtons(
+  workspace: Workspace,
+  point: Point,
+  model: Model | null,
+  acts: ActionActs,
+): FurtherButton[] {
   const { workshop } = workspace.source,
     more: FurtherButton[] = [];
   if (!workshop) return more;
   if (point.kind !== "record")
     more.push({
-      title: "Move parameters",
+      title: "Simulate with sliders",
       words: "simulate from here while sliders move",
       act: () => acts.simulate(point),
     });
@@ -84,13 +89,18 @@ export function pointButtons(workspace: Workspace, point: Point, acts: ActionAct
       words: "the discontinuity map and its verdict",
       act: (place) => void showGrazing(workshop, point, place),
     });
-  if (point.type === "GR" || point.type === "SN")
+  if ((point.type === "GR" || point.type === "SN") && canTrip(model))
     more.push({
       title: "Will it trip?",
       words: "the time until the motion leaves, by how far the parameter is beyond this point",
       act: (place) => void showTrip(workshop, point, acts, place),
     });
   return more;
+}
+
+/** Whether something trips in a model, by what its author says of it. */
+function canTrip(model: Model | null): boolean {
+  return model !== null && /switch|\btrip|snap-?through|pull-?in\b/i.test(`${model.name} ${model.text}`);
 }
 
 async function showGrazing(workshop: Workshop, point: Point, place: HTMLElement): Promise<void> {
@@ -128,6 +138,7 @@ interface AlongField {
 
 const keptParameter = "along"; // that was chosen last
 const usualPoints = 201; // of a sweep
+const mostPoints = 100000; // that a form asks for; each is a motion
 
 /** Asks along which parameters, and shows the text that does it, which follows the fields. */
 class ActionForm {
@@ -239,6 +250,8 @@ class ActionForm {
     }
     const points = Number(this.points.value);
     if (this.isSweep && !(Number.isInteger(points) && points >= 2)) return "A sweep has two points at least.";
+    if (this.isSweep && points > mostPoints)
+      return `${points} motions take very long: choose at most ${mostPoints} points here; the text of the study takes more.`;
     return "";
   }
 

@@ -246,6 +246,8 @@ export interface ModelState extends Quantity {
 export interface Model {
   name: string;
   text: string;
+  file?: string; // of the opened model, in which it can be saved
+  revision?: number; // of the text of that file
   parameters: ModelParameter[];
   states: ModelState[];
   quantities?: Quantity[];
@@ -282,6 +284,12 @@ export interface StudyText {
   saved: boolean;
   has_file: boolean; // false: it was never saved, and needs a name
   errors?: Mistake[];
+}
+
+export interface ModelText {
+  text: string;
+  file: string;
+  revision: number;
 }
 
 export interface StudySaving {

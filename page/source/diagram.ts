@@ -18,6 +18,7 @@ export interface DiagramOptions {
   typeOf?: DrawingStyle["typeOf"];
   pick?: (hit: Hit) => void; // a click on a drawn point
   step?: (key: string) => boolean; // arrow keys; true if they meant something
+  enter?: () => boolean; // to what can be done with the chosen point; true if there is one
   viewed?: (view: View) => void; // the user zoomed or moved
 }
 
@@ -102,6 +103,10 @@ export class Diagram {
     if (followed || !(sameAxes || sameQuantities)) this.view = this.whole;
     if (sameAxes && this.plot) this.redraw();
     else this.build();
+  }
+
+  setName(name: string): void {
+    this.root.setAttribute("aria-label", name);
   }
 
   setView(view: View, byUser = false): void {

@@ -143,6 +143,8 @@ function act(diagram: Diagram, event: KeyboardEvent): boolean {
     case "0":
       diagram.showAll(true);
       return true;
+    case "Enter":
+      return diagram.options.enter?.() ?? false;
     case " ":
       diagram.root.dataset.panning = "yes";
       return true;

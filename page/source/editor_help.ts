@@ -1,4 +1,4 @@
-import type { Model } from "./contract.js";
+import type { Mistake, Model } from "./contract.js";
 import { withUnit } from "./numbers.js";
 import { keysAt, meaningAt, valuesAt, wordsIn, type KnownWord } from "./schema_keys.js";
 import type { Workshop } from "./source.js";
@@ -51,6 +51,7 @@ export async function modelHelp(
   workshop: Workshop,
   model: () => Model | null,
   changed: (text: string) => void,
+  checked: (mistakes: Mistake[]) => void,
 ): Promise<EditorHelp> {
   const words = wordsIn(await workshop.words().catch(() => []));
   const all = () => [...words, ...namesOfModel(model())];
@@ -60,5 +61,6 @@ export async function modelHelp(
     words: () => all(),
     meaning: (_, __, word) => all().find(({ name }) => name === word)?.words ?? "",
     changed,
+    checked,
   };
 }

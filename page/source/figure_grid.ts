@@ -25,11 +25,8 @@ export class FigureGrid {
       this.bar,
       button("Add a picture", () => this.addUsual()),
       checkbox("zoom x together", true, (on) => (this.linked = on)),
-      make(
-        "span",
-        { class: "hint" },
-        "drag: zoom · wheel: zoom · shift-drag: move · double click: all · arrow keys: points",
-      ),
+      make("span", { class: "hint" }, "drag: zoom · wheel: zoom · shift-drag: move · double click: all"),
+      make("span", { class: "hint keys" }, "keys ←→: points · ↑↓: special points · Enter: what to do there"),
     );
     workspace.on("runs", () => this.arrange());
     this.arrange();

@@ -15,7 +15,8 @@ import { hiddenPoints } from "./prepared_panel.js";
 import { pictureText } from "./picture_text.js";
 import { namedWish, seenWish } from "./seen_wish.js";
 import { SpecialList } from "./special_list.js";
-import type { Workspace } from "./workspace.js";
+import { Refusal } from "./source.js";
+import { varied, type Workspace } from "./workspace.js";
 
 /** What is kept of a panel when the page is opened again. */
 export interface FigureMemory {
@@ -57,9 +58,12 @@ export class FigureView {
   private readonly grid = make("div", { class: "diagrams" });
   private readonly legend = make("div");
   private readonly notes = make("div", { class: "notes" });
+  private readonly refusal = make("div", { role: "status" }); // of what was chosen last
   private readonly special: SpecialList;
   private readonly ends: (() => void)[] = [];
   private asked: AbortController | null = null;
+  private drawnWish: PictureWish | null = null; // the last one that could be drawn
+  private chooser: PictureChooser | null = null;
   private sameQuantities = false; // only runs were added
   private drawnAt = 0;
   private timer = 0;
@@ -78,6 +82,7 @@ export class FigureView {
       { class: "figure" },
       make("header", {}, this.title, this.tools),
       this.chooserPlace,
+      this.refusal,
       this.shownRuns,
       this.grid,
       this.unseen,
@@ -150,8 +155,23 @@ export class FigureView {
     this.backButton.hidden = this.before.length === 0;
     const sameAxes = wish.x === this.wish.x && wish.kind === this.wish.kind && wish.name === this.wish.name;
     this.wish = wish;
+    fill(this.refusal);
     if (!sameAxes && !this.sameQuantities) this.logarithmic = [];
     void this.load();
+  }
+
+  /** What was chosen cannot be drawn: the picture stays as it was, and says why. */
+  private takeBack(drawn: PictureWish, why: string): void {
+    this.wish = drawn;
+    if (this.before[this.before.length - 1] === drawn) this.before.pop();
+    this.backButton.hidden = this.before.length === 0;
+    this.logarithmic = this.diagrams.map((diagram) => diagram.logarithmic);
+    this.sameQuantities = false;
+    fill(this.refusal, problem(`The picture stays as it was: ${why}`));
+    this.chooser?.takeBack(this.ownWish);
+    this.showTools();
+    this.showRuns();
+    this.neighbours.changed();
   }
 
   addRun(run: string): void {
@@ -200,23 +220,37 @@ export class FigureView {
   async load(): Promise<void> {
     this.asked?.abort();
     const asked = (this.asked = new AbortController());
+    const runs = this.fixed ? [] : this.workspace.runsOf(this.runs);
+    if (runs.length > 0 && runs.every((run) => run.points === 0)) {
+      this.showProblem(new Error("no point is computed yet"), false);
+      return;
+    }
     try {
       const answer = this.fixed ?? (await figureOf(this.workspace, this.wish, asked.signal));
       if (asked.signal.aborted) return;
       this.answer = answer;
       this.drawnAt = performance.now();
+      this.drawnWish = this.wish;
       this.show(answer);
     } catch (error) {
-      if (!asked.signal.aborted) this.showProblem(error);
+      if (asked.signal.aborted) return;
+      const { drawnWish } = this;
+      const isRefused = error instanceof Refusal && error.status === 400;
+      if (isRefused && drawnWish && drawnWish !== this.wish) this.takeBack(drawnWish, messageOf(error));
+      else this.showProblem(error, isRefused);
     }
   }
 
-  private showProblem(error: unknown): void {
+  /** @param isRefused otherwise the server does not answer, and what was drawn may still be so */
+  private showProblem(error: unknown, isRefused: boolean): void {
     this.title.textContent = this.wish.title ?? this.wish.name ?? this.runs.join(", ");
     this.showTools();
     this.showRuns();
     fill(this.notes, problem(messageOf(error)));
-    if (this.diagrams.length === 0) this.grid.hidden = true;
+    if (this.diagrams.length > 0 && !isRefused) return;
+    this.grid.hidden = this.special.root.hidden = true;
+    fill(this.legend);
+    fill(this.unseen);
   }
 
   private show({ figure, table }: FigureAnswer): void {
@@ -234,7 +268,7 @@ export class FigureView {
     this.showLegend();
     this.showRuns();
     this.special.show(figure);
-    const notes = [...new Set(figure.panels.flatMap((panel) => panel.notes ?? []))];
+    const notes = [...new Set([...this.motionNotes(figure), ...figure.panels.flatMap((panel) => panel.notes ?? [])])];
     fill(
       this.notes,
       ...notes.map((note) => make("p", { class: "note" }, note)),
@@ -243,20 +277,40 @@ export class FigureView {
     this.markSelection();
   }
 
+  /** Which motion is drawn, of a run that has many. */
+  private motionNotes(figure: Figure): string[] {
+    const notes: string[] = [];
+    for (const run of this.workspace.runsOf(this.runs)) {
+      if (run.is_branch || run.points < 2) continue;
+      const series = figure.panels.flatMap((panel) => panel.series).filter((one) => one.run === run.name);
+      const numbers = new Set(series.flatMap((one) => one.numbers ?? []).filter((number) => number !== null));
+      if (numbers.size !== 1) continue;
+      const [number] = numbers;
+      const along = varied(run)[0];
+      const how = along ? `; “at” in a picture of the study chooses another one by ${along}` : "";
+      notes.push(`Of the ${run.points} motions of ${run.name} one is drawn: that of point ${number}${how}.`);
+    }
+    return notes;
+  }
+
   /** Draws the figure as it is, after a change of colours or axes. */
   private redraw(): void {
     const figure = this.answer?.figure;
     if (!figure) return;
     recoloured(figure, this.colouring, this.workspace).panels.forEach((panel, index) => {
       const known = this.diagrams[index];
+      const title = [figure.title || this.runs.join(", "), panel.title].filter((text) => text !== "").join(", ");
+      const name = `${title}: arrow keys go from point to point, up and down between special points, Enter to what can be done there`;
+      known?.setName(name);
       if (known) return known.setPanel(panel, this.logarithmic[index], this.sameQuantities);
       const diagram: Diagram = new Diagram(
         panel,
         {
-          name: `${figure.title}${panel.title ? `, ${panel.title}` : ""}: arrow keys go from point to point`,
+          name,
           typeOf: this.workspace.typeOf,
           pick: (hit) => this.pick(hit),
           step: (key) => this.step(diagram, key),
+          enter: () => this.enter(),
           viewed: () => this.neighbours.viewed(this, diagram),
         },
         this.logarithmic[index],
@@ -328,20 +382,27 @@ export class FigureView {
     this.chooserPlace.hidden = !this.chooserPlace.hidden;
     this.showTools();
     if (this.chooserPlace.hidden) return;
-    const chooser = new PictureChooser(this.workspace, this.ownWish, this.colouring, {
+    const chooser = (this.chooser = new PictureChooser(this.workspace, this.ownWish, this.colouring, {
       wish: (wish) => this.setWish(wish, true),
       colouring: (colouring) => {
         this.colouring = colouring;
         this.redraw();
         this.showLegend();
       },
-    });
+    }));
     fill(this.chooserPlace, chooser.root);
     chooser.root.querySelector<HTMLElement>("select, input, button")?.focus();
   }
 
   private pick(hit: Hit): void {
     if (hit.run !== null && hit.number !== null) this.workspace.select({ run: hit.run, number: hit.number });
+  }
+
+  /** From a point to what can be done there. */
+  private enter(): boolean {
+    if (!this.workspace.selection) return false;
+    this.workspace.enter();
+    return true;
   }
 
   private markSelection(): void {

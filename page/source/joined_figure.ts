@@ -37,14 +37,18 @@ export function partsOf(
     others = runs.filter((run) => !run.is_branch);
   if (branches.length === 0 || others.length === 0) return null;
   if (wish.kind && !["branch", "bifurcation"].includes(wish.kind)) return null;
-  const common = others[0].values.map(({ name }) => name).filter((name) => valuesFor(name, branches).length > 0);
-  const chosen = wish.y?.length ? common.filter((name) => wish.y?.includes(name)) : common;
+  const own = others[0].values.map(({ name }) => name),
+    common = own.filter((name) => valuesFor(name, branches).length > 0);
+  // An expression is drawn of both; if it is wrong, the server says why.
+  const expressions = (wish.y ?? []).filter((name) => !own.includes(name));
+  const chosen = wish.y?.length ? [...common.filter((name) => wish.y?.includes(name)), ...expressions] : common;
+  const ofBranch = (name: string) => (expressions.includes(name) ? [name] : valuesFor(name, branches));
   const names = (list: Run[]) => list.map(({ name }) => name);
   const { x, x_range, y_range, logarithmic, samples, directions } = wish;
   const axes = { x, x_range, y_range, logarithmic };
   return {
     others: { ...axes, samples, directions, runs: names(others), y: chosen },
-    branches: { ...axes, runs: names(branches), y: chosen.flatMap((name) => valuesFor(name, branches)) },
+    branches: { ...axes, runs: names(branches), y: chosen.flatMap(ofBranch) },
   };
 }
 

@@ -32,6 +32,18 @@ const words: Record<string, string> = {
   EP: "end",
 };
 
+/** What the labels of motions say that are no words of everyday. */
+const labels: Record<string, string> = {
+  ended: "to their ends",
+  singular: "until the solution ceases (as by snap-through)",
+  chattering: "until contacts accumulate",
+  escaped: "until they leave the bounds",
+};
+
+export function labelInWords(label: string): string {
+  return labels[label] ?? label;
+}
+
 /** "GR: grazing"; a label that is a word already is left as it is. */
 export function kindInWords(kind: string): string {
   return kind in words ? `${kind}: ${words[kind]}` : kind;

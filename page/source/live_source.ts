@@ -4,6 +4,7 @@ import type {
   GrazingAnswer,
   Job,
   Model,
+  ModelText,
   Motion,
   PictureWish,
   Point,
@@ -94,6 +95,10 @@ export class LiveSource implements Source, Workshop {
   schema = () => this.ask<unknown>("GET", "/api/schema");
   words = () => this.ask<unknown>("GET", "/api/words");
   study = () => this.ask<StudyText>("GET", "/api/study");
+  modelOf = (text: string) => this.post<Model>("/api/model", { text });
+  keepModel = (text: string, revision: number, replace: boolean) =>
+    this.ask<ModelText>("PUT", "/api/model", { text, revision, replace });
+  remove = (run: string) => this.ask<unknown>("DELETE", `/api/runs/${encodeURIComponent(run)}`);
   keepStudy = (text: string, revision: number, saving: StudySaving) =>
     this.ask<StudyText>("PUT", "/api/study", { text, revision, ...saving });
   propose = (wish: ProposalWish) => this.post<Proposal>("/api/propose", wish);

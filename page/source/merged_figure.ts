@@ -56,10 +56,11 @@ export function drawnOver(
       ? fitting.flatMap(({ series }) => series.filter((one) => one.only_in_legend))
       : [entry(names, "line", first), ...legendOf(fitting)];
     const values = fitting.map(({ y }) => y.label).filter((label) => label !== panel.y.label);
+    const both = values.length > 0 ? `${panel.y.label} (dots), ${values.join(", ")} (lines)` : panel.y.label;
     panels.push({
       ...panel,
       x: { ...panel.x, range: null },
-      y: { ...panel.y, range: null },
+      y: { ...panel.y, label: both, words: values.length > 0 ? "" : panel.y.words, range: null },
       series: [
         ...panel.series,
         ...fitting.flatMap(({ series }) => series.filter((one) => !one.only_in_legend)),
@@ -70,13 +71,18 @@ export function drawnOver(
         ...panel.notes,
         ...(values.length > 0
           ? [
-              `Dots: ${panel.y.label} where motions are sampled. Lines: ${values.join(", ")} of the orbits, which are on dots that are sampled there.`,
+              `Dots: ${panel.y.label} where motions are sampled. Lines: ${values.map((name) => extremeWords(name)).join(", ")} along the orbit. They meet the dots only where ${panel.y.label} is sampled at that value.`,
             ]
           : []),
       ],
     });
   }
   return panels.length > 0 ? { ...base, title: "", panels } : null;
+}
+
+/** "greatest x" for max_x. */
+function extremeWords(name: string): string {
+  return name.replace(/^max_/, "greatest ").replace(/^min_/, "least ");
 }
 
 function haveSameAxes(one: Panel, other: Panel): boolean {

@@ -29,5 +29,7 @@ export function endingWords(motion: Motion): string {
   const times = motion.values[0] ?? [];
   if (times.length < 2) return `There is no motion: ${why || motion.ending}.`;
   const end = withUnit(times[times.length - 1], motion.columns[0].unit, 5);
+  if (motion.ending === "singular" && !motion.limit)
+    return `Snap-through at t = ${end}: the solution ceases to exist${motion.detail ? ` (${motion.detail})` : ""}.`;
   return `The motion ends early, at t = ${end}: ${why || motion.ending}.`;
 }

@@ -94,6 +94,24 @@ export function cyclesOf(values: Num[]): number {
   return count;
 }
 
+/** Whether two columns are on a straight line, but for noise that nobody sees. */
+export function areProportional(one: Num[], other: Num[]): boolean {
+  const pairs: [number, number][] = [];
+  for (let i = 0; i < one.length; ++i) {
+    const a = one[i],
+      b = other[i];
+    if (a !== null && a !== undefined && b !== null && b !== undefined) pairs.push([a, b]);
+  }
+  const mean = (of: (pair: [number, number]) => number) =>
+    pairs.reduce((sum, pair) => sum + of(pair), 0) / Math.max(1, pairs.length);
+  const a0 = mean(([a]) => a),
+    b0 = mean(([, b]) => b);
+  const aa = mean(([a]) => (a - a0) ** 2),
+    bb = mean(([, b]) => (b - b0) ** 2),
+    ab = mean(([a, b]) => (a - a0) * (b - b0));
+  return aa > 0 && bb > 0 && ab * ab > (1 - 1e-6) * aa * bb;
+}
+
 /** The columns that are no constants, the time left out. */
 export function movingColumns(motion: Motion): number[] {
   const moving = motion.columns

@@ -4,7 +4,7 @@ import { Diagram } from "./diagram.js";
 import { exportMenu } from "./export_menu.js";
 import { append, checkbox, choice, fill, labelled, make } from "./dom.js";
 import { endingWords } from "./motion_ending.js";
-import { columnIndex, cyclesOf, motionPanel, movingColumns, valuesAt } from "./motion_rows.js";
+import { areProportional, columnIndex, cyclesOf, motionPanel, movingColumns, valuesAt } from "./motion_rows.js";
 import { ModelDrawing } from "./model_drawing.js";
 import { Player } from "./player.js";
 import { symbolOf } from "./numbers.js";
@@ -186,7 +186,10 @@ function usual(motion: Motion, names: string[], model: Model | null): Choice {
   const known = (list: string[] | undefined) => (list ?? []).filter((name) => names.includes(name));
   const portrait = known(model?.portrait),
     histories = known(model?.histories);
-  const pair = portrait.length === 2 ? portrait : plain.length > 1 ? plain : ["t", plain[0] ?? names[0] ?? "t"];
+  // Two names of one quantity, as a record has of what it measures, are no portrait.
+  const column = (name: string) => motion.values[columnIndex(motion, name)];
+  const other = plain.slice(1).find((name) => !areProportional(column(plain[0]), column(name)));
+  const pair = portrait.length === 2 ? portrait : other ? [plain[0], other] : ["t", plain[0] ?? names[0] ?? "t"];
   const shown = (histories.length > 0 ? histories : plain).slice(0, usualHistories);
   return { x: pair[0], y: pair[1], histories: new Set(shown) };
 }

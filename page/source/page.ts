@@ -12,10 +12,11 @@ import { PointView } from "./point_view.js";
 import { RunList } from "./run_list.js";
 import { Screens } from "./screens.js";
 import { SimulationView, type SimulationStart } from "./simulation_view.js";
-import type { Source } from "./source.js";
+import { Refusal, type Source } from "./source.js";
 import { splitter } from "./splitter.js";
 import { StudyView } from "./study_view.js";
 import { Tabs } from "./tabs.js";
+import { withoutRun } from "./study_text.js";
 import { Workspace } from "./workspace.js";
 
 /** Puts the parts of the page together, and connects them. */
@@ -28,8 +29,10 @@ export class Page {
   private readonly study: StudyView;
   private readonly models: ModelView;
   private readonly banner: ConnectionBanner;
+  private readonly trouble = make("div", { class: "banner", role: "alert", hidden: true }); // with the result file
   private readonly acts: ActionActs;
   private model: Model | null = null;
+  private opened: Model | null = null; // that of the file
   private modelRun: string | null = null; // whose model it is; null: the opened one
   private refreshing = 0;
   private refreshAgain = false;
@@ -44,7 +47,11 @@ export class Page {
     this.workspace = workspace;
     this.grid = new FigureGrid(workspace, () => this.keep());
     this.study = new StudyView(workspace, () => this.model);
-    this.models = new ModelView(workspace, (model, text) => this.simulateModel(model, text));
+    this.models = new ModelView(workspace, {
+      simulate: (model, text) => this.simulateModel(model, text),
+      stored: (model) => void (this.simulation.isOfText && this.beginModel(model, null)),
+      saved: () => this.modelSaved(),
+    });
     this.banner = new ConnectionBanner(() => addressOf(this.view));
     this.acts = {
       compute: (text) => this.compute(text),
@@ -77,6 +84,7 @@ export class Page {
       },
       picture: (picture) => this.grid.showPicture(picture.name),
       compute: (names, picture) => void this.computeRuns(names, picture),
+      remove: (run) => void this.removeRun(run),
     });
     this.tabs.add("Point", this.point.root);
     if (source.workshop) this.tabs.add("Simulate", this.simulation.root, () => void this.simulateUsual());
@@ -95,13 +103,18 @@ export class Page {
       this.grid.focus();
     };
     const skip = button("To the pictures", toPictures, { class: "skip" });
-    fill(root, skip, pageHeader(workspace, screens.root), this.banner.root, columns);
+    fill(root, skip, pageHeader(workspace, screens.root), this.banner.root, this.trouble, columns);
     workspace.on("selection", (selection) => {
       this.keep();
       if (!selection) return;
       if (this.ready) this.tabs.open("Point");
       if (this.ready) screens.showSide(true);
       void this.showModel(selection.run);
+    });
+    workspace.on("enter", () => {
+      this.tabs.open("Point");
+      screens.showSide(true);
+      this.point.focus();
     });
     window.addEventListener("pagehide", () => this.keepNow());
   }
@@ -134,6 +147,7 @@ export class Page {
         this.grid.open(memory.wish, memory);
     }
     this.openUsual();
+    await this.readOpened();
     const drawable = runs.filter((run) => run.points > 0);
     this.ready = true;
     if (before?.simulation) remember("simulation", before.simulation);
@@ -152,7 +166,8 @@ export class Page {
     // Pictures without a title are those that every run has in a file of its own.
     const known = pictures.filter((one) => one.runs.every((name) => this.workspace.run(name))),
       titled = known.filter((one) => one.title);
-    const first = titled.find((one) => one.kind === "branch") ?? titled[0] ?? known[0];
+    const isDiagram = ({ kind }: StudyPicture) => kind === "branch" || kind === "bifurcation";
+    const first = titled.find(({ kind }) => kind === "branch") ?? titled[0] ?? known.find(isDiagram) ?? known[0];
     if (this.grid.isEmpty && first && first.runs.some((name) => drawable.some((run) => run.name === name)))
       this.grid.open({ name: first.name });
     else if (this.grid.isEmpty && drawable.length > 0)
@@ -164,7 +179,10 @@ export class Page {
       const model = run === null ? await this.source.model(null) : await this.point.modelOf(run);
       this.model = model;
       this.modelRun = run;
-      await this.models.show(model, run);
+      if (run === null) this.opened = model;
+      // A model that was opened stays in its editor, where it can be saved, beside its runs.
+      const isOpened = this.opened?.file !== undefined && this.opened.name === model.name;
+      await (isOpened && this.opened ? this.models.show(this.opened, null) : this.models.show(model, run));
     } catch {
       return; // a file may lack the model
     }
@@ -190,12 +208,36 @@ export class Page {
     this.tabs.open("Simulate");
   }
 
-  private simulateModel(model: Model, text: string): void {
-    const own = text === model.text ? null : text;
-    const run = own === null ? this.modelRun : null;
-    const words = `From the initial state of the model${run === null ? "" : ` of run ${run}`}.`;
-    this.simulation.begin({ run, text: own, words, parameters: {}, initial: {}, mode: "", duration: null }, model);
+  /** @throws Refusal when the text has mistakes */
+  private async simulateModel(model: Model, text: string): Promise<void> {
+    const { workshop } = this.source;
+    const edited = text !== model.text && workshop ? await workshop.modelOf(text) : null;
+    this.beginModel(edited ?? model, edited ? text : null);
     this.tabs.open("Simulate");
+  }
+
+  /** @param text of a model that no file has; null: it is the stored one */
+  private beginModel(model: Model, text: string | null): void {
+    const run = text === null && model !== this.opened ? this.modelRun : null;
+    const words = `From the initial state of the model${run === null ? "" : ` of run ${run}`}.`;
+    this.simulation.begin({ run, text, words, parameters: {}, initial: {}, mode: "", duration: null }, model);
+  }
+
+  /** The opened model has another text now, with which it is simulated. */
+  private async modelSaved(): Promise<void> {
+    await this.workspace.refresh().catch(() => undefined);
+    await this.readOpened();
+    if (this.opened && this.simulation.isOfText) this.beginModel(this.opened, null);
+  }
+
+  /** The opened model by its file, as it is now. */
+  private async readOpened(): Promise<void> {
+    if (this.workspace.session.opened.kind !== "model") return;
+    this.opened = await this.source.model(null).catch(() => this.opened);
+    if (!this.opened) return;
+    this.simulation.setBase(this.opened);
+    if (this.modelRun === null) this.model = this.opened;
+    await this.models.show(this.opened, null);
   }
 
   /** What was simulated before the page was loaded anew, or else the model that is shown. */
@@ -205,7 +247,7 @@ export class Page {
     const model = before ? await this.modelBefore(before) : null;
     if (!this.simulation.isEmpty) return; // something else was chosen meanwhile
     if (before && model) this.simulation.begin(before, model);
-    else if (this.model) this.simulateModel(this.model, this.model.text);
+    else if (this.model) this.beginModel(this.model, null);
   }
 
   /** The model of an earlier simulation, if it still has all that has a value there. */
@@ -237,6 +279,31 @@ export class Page {
     else this.awaitsAny = true;
   }
 
+  /** Takes a run out of the results and out of the study, after a confirmation. */
+  private async removeRun(name: string): Promise<void> {
+    const { workshop } = this.source,
+      run = this.workspace.run(name);
+    if (!workshop || !run) return;
+    const points = run.points > 0 ? ` and its ${run.points} points from the results, for good` : "";
+    if (!window.confirm(`Remove the run ${name} from the study${points}?`)) return;
+    try {
+      const study = await workshop.study(),
+        text = withoutRun(study.text, name);
+      if (text !== study.text) {
+        const { errors } = await workshop.check("study", text);
+        if (errors.length > 0 && (study.errors ?? []).length === 0) throw new Error(errors[0].problem);
+      }
+      if (run.status !== "missing") await workshop.remove(name);
+      if (text !== study.text)
+        await workshop.keepStudy(text, study.revision, { save: study.has_file && study.saved, replace: false });
+      if (this.workspace.selection?.run === name) this.workspace.select(null);
+      this.workspace.announce(`${name} is removed`);
+    } catch (error) {
+      window.alert(`${name} stays: ${messageOf(error)}`);
+    }
+    this.refreshSoon();
+  }
+
   private awaitedPicture: StudyPicture | null = null;
   private awaitsAny = false;
   /** Runs that were started from this page, to be shown as soon as they have points. */
@@ -255,6 +322,7 @@ export class Page {
       job: (job) => this.jobChanged(job),
       study: (revision) => {
         void this.study.reload(revision);
+        void this.readOpened();
         this.refreshSoon();
       },
       connection: (state) => {
@@ -304,12 +372,28 @@ export class Page {
     this.workspace.select({ run, number: first?.number ?? 0 });
   }
 
+  /** Reads the lists again. What is shown stays where the results cannot be read, or are gone, and the page says so. */
+  private async refreshNow(): Promise<void> {
+    const hasResults = () => this.workspace.runs.some(({ points }) => points > 0);
+    const had = hasResults() || !this.trouble.hidden;
+    let words = "";
+    try {
+      await this.workspace.refresh();
+      if (had && !hasResults()) words = "The results are not there any more. Pictures stay as they were.";
+    } catch (error) {
+      if (!(error instanceof Refusal) || error.status === 0) return; // the connection's banner says it
+      words = `The results cannot be read now: ${error.message}. Pictures stay as they were.`;
+    }
+    if (this.trouble.textContent !== words) fill(this.trouble, words);
+    this.trouble.hidden = words === "";
+  }
+
   /** The lists are read at most three times a second, however many events come, and once at a time. */
   private refreshSoon(): void {
     if (this.refreshing) return void (this.refreshAgain = true);
     this.refreshing = window.setTimeout(async () => {
       this.refreshAgain = false;
-      await this.workspace.refresh().catch(() => undefined);
+      await this.refreshNow();
       this.refreshing = 0;
       if (this.refreshAgain) this.refreshSoon();
     }, 300);

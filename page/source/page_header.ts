@@ -2,7 +2,17 @@ import { aboutDialog } from "./about_dialog.js";
 import { appearance } from "./appearance.js";
 import { append, button, make } from "./dom.js";
 import { stateWords } from "./run_list.js";
+import type { Session } from "./contract.js";
 import type { Workspace } from "./workspace.js";
+
+/** The name of what is opened: that of its file, or of the folder of results. */
+function nameOf({ opened, title }: Session): string {
+  const [last, folder] = opened.name
+    .split("/")
+    .filter((part) => part !== "")
+    .reverse();
+  return (last === "results.sqlite" && folder ? folder : last) || title || "graze";
+}
 
 /** The title, what is being computed, and how the page looks. */
 export function pageHeader(workspace: Workspace, ...more: HTMLElement[]): HTMLElement {
@@ -29,7 +39,8 @@ export function pageHeader(workspace: Workspace, ...more: HTMLElement[]): HTMLEl
   const header = make(
     "header",
     { class: "page-header" },
-    make("h1", {}, session.title || session.opened.name || "graze"),
+    make("h1", { title: session.title || null }, nameOf(session)),
+    session.title && session.title !== nameOf(session) ? make("span", { class: "about" }, session.title) : null,
     state,
   );
   append(

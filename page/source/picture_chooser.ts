@@ -33,6 +33,7 @@ function common(lists: string[][]): string[] {
 export class PictureChooser {
   readonly root = make("form", { class: "chooser-form", "aria-label": "Choose what the picture shows" });
   private wish: PictureWish;
+  private readonly own = make("input", { type: "text", placeholder: "expression for y, such as V/omega", size: 24 });
 
   constructor(
     private readonly workspace: Workspace,
@@ -43,6 +44,14 @@ export class PictureChooser {
     this.wish = { ...wish };
     this.root.addEventListener("submit", (event) => event.preventDefault());
     this.build();
+  }
+
+  /** What was chosen cannot be drawn; the text that was typed stays, to be mended. */
+  takeBack(wish: PictureWish): void {
+    this.wish = { ...wish };
+    const typed = this.own.value;
+    this.build();
+    this.own.value = typed;
   }
 
   private build(): void {
@@ -69,8 +78,7 @@ export class PictureChooser {
       set({ kind: value || undefined });
       this.build(); // other quantities belong to it
     });
-    const own = make("input", { type: "text", placeholder: "expression for y, such as V/omega", size: 24 });
-    const useOwn = button("Use", () => own.value.trim() && set({ y: [own.value.trim()] }));
+    const useOwn = button("Use", () => set({ y: this.own.value.trim() ? [this.own.value.trim()] : undefined }));
     const colours = labelled(
       "colours by",
       choice(colourings, this.colouring, (value) => {
@@ -87,7 +95,7 @@ export class PictureChooser {
       labelled("y", y),
       labelled("and y", more),
       this.lists(),
-      make("div", { class: "row" }, labelled("y =", own), useOwn),
+      make("div", { class: "row" }, labelled("y =", this.own), useOwn),
       labelled("kind", kind),
       this.ways(),
       colours,

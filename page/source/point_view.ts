@@ -23,6 +23,8 @@ export class PointView {
   private multipliers: Diagram | null = null;
   private asked: AbortController | null = null;
   private timer = 0;
+  private shown: Selection | null = null;
+  private awaitsFocus = false;
   private readonly models = new Map<string, Promise<Model>>();
 
   constructor(
@@ -45,6 +47,15 @@ export class PointView {
     });
   }
 
+  /** The keyboard goes to the first button, or to the point's title, as soon as they are those of the chosen point. */
+  focus(): void {
+    const { selection } = this.workspace;
+    this.awaitsFocus = selection?.run !== this.shown?.run || selection?.number !== this.shown?.number;
+    if (this.awaitsFocus) return;
+    const first = this.actions.querySelector<HTMLElement>("button") ?? this.heading.querySelector<HTMLElement>("h2");
+    first?.focus();
+  }
+
   modelOf(run: string): Promise<Model> {
     let model = this.models.get(run);
     if (!model) {
@@ -60,11 +71,12 @@ export class PointView {
     const asked = (this.asked = new AbortController());
     const { source } = this.workspace;
     try {
-      const { point, note } = await source.point(run, number, asked.signal);
+      const [{ point, note }, model] = await Promise.all([
+        source.point(run, number, asked.signal),
+        this.modelOf(run).catch(() => null),
+      ]);
       if (asked.signal.aborted) return;
-      this.showPoint(point, note);
-      const model = await this.modelOf(run).catch(() => null);
-      if (asked.signal.aborted) return;
+      this.showPoint(point, note, model);
       const { names, hidden } = namesFor(point, model);
       const motion = await source.motion(run, point.number, names, asked.signal);
       if (!asked.signal.aborted)
@@ -76,13 +88,13 @@ export class PointView {
     }
   }
 
-  private showPoint(point: Point, note: string): void {
+  private showPoint(point: Point, note: string, model: Model | null): void {
     const run = this.workspace.run(point.run);
     // The only point of a run that finds an orbit is the end of no branch.
     const isFound = run?.kind === "orbit" && point.type === "EP";
     const name = isFound ? "" : point.name || point.label;
     const typeWords = isFound ? "periodic orbit" : point.type === "EP" ? "end of the branch" : point.type_words;
-    const type = [typeWords, point.detail].filter((text) => text && text !== "regular").join(": ");
+    const type = [typeWords, detailInWords(point.detail)].filter((text) => text && text !== "regular").join(": ");
     const badges = make("p", { class: "badges" });
     if (point.kind === "orbit") {
       // Where a multiplier is on the circle, rounding errors would decide.
@@ -95,7 +107,7 @@ export class PointView {
     }
     fill(
       this.heading,
-      make("h2", {}, `${point.run}: ${name || (isFound ? "the orbit" : `point ${point.number}`)}`),
+      make("h2", { tabindex: -1 }, `${point.run}: ${name || (isFound ? "the orbit" : `point ${point.number}`)}`),
       name ? make("p", {}, `point ${point.number}${type ? `: ${type}` : ""}`) : type ? make("p", {}, type) : null,
       badges,
       make("p", { class: "summary" }, this.summary(point)),
@@ -108,9 +120,11 @@ export class PointView {
           )
         : null,
     );
-    const more = pointButtons(this.workspace, point, this.acts);
+    const more = pointButtons(this.workspace, point, model, this.acts);
     fill(this.actions, ...actionButtons(this.workspace, point, this.acts, () => this.modelOf(point.run), more));
     this.showMultipliers(point);
+    this.shown = { run: point.run, number: point.number };
+    if (this.awaitsFocus) this.focus();
     const coordinates = this.variedOf(point),
       states = new Set(run?.states.map(({ name }) => name));
     fill(
@@ -140,12 +154,22 @@ export class PointView {
     return point.coordinates.filter(({ name }) => !run || varied(run).includes(name));
   }
 
+  /** What varies along the run; of a single orbit, what varies along other runs of its model, or its first parameters. */
+  private placeOf(point: Point): NamedNumber[] {
+    const { workspace } = this,
+      run = workspace.run(point.run);
+    if (run?.kind !== "orbit") return this.variedOf(point);
+    const others = new Set(workspace.runs.filter(({ model }) => model === run.model).flatMap(varied));
+    const chosen = point.coordinates.filter(({ name }) => others.has(name));
+    return (chosen.length > 0 ? chosen : point.coordinates).slice(0, 4);
+  }
+
   /** Where the point is, and its values, in a line. */
   private summary(point: Point): string {
     const period: NamedNumber[] =
       point.period === null ? [] : [{ name: "period", value: point.period, unit: "", words: "" }];
     const shownValues = point.values.filter((one) => one.name !== "period").slice(0, 4);
-    const values = [...this.variedOf(point), ...shownValues, ...period];
+    const values = [...this.placeOf(point), ...shownValues, ...period];
     return values.map(({ name, value, unit }) => `${symbolOf(name)} = ${withUnit(value, unit)}`).join("  ·  ");
   }
 
@@ -189,6 +213,14 @@ function factTable(facts: [string, string | number][]): HTMLElement {
   };
   const body = make("tbody", {}, ...facts.map(row));
   return make("table", {}, make("caption", { class: "unseen" }, "Solution"), body);
+}
+
+/** "unphysical beyond: event 'right' happens within segment 1", as one who looks at the motion says it. */
+function detailInWords(detail: string): string {
+  const passed = /unphysical beyond: event '([^']+)' happens within segment \d+/.exec(detail);
+  if (!passed) return detail;
+  const words = `the orbit touches '${passed[1]}'; beyond, it would pass through it`;
+  return words;
 }
 
 function complexText([re, im]: [Num, Num]): string {

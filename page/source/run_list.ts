@@ -1,12 +1,13 @@
 import type { Run, StudyPicture } from "./contract.js";
 import { append, button, fill, make } from "./dom.js";
-import { counted, kindInWords } from "./kind_words.js";
+import { counted, kindInWords, labelInWords } from "./kind_words.js";
 import { symbolOf } from "./numbers.js";
 import { varied, type Workspace } from "./workspace.js";
 
 export interface RunActs {
   open(run: string, add: boolean): void; // in the current panel, or beside what it shows
   picture(picture: StudyPicture): void;
+  remove(run: string): void; // out of the study and the results
   compute(runs: string[], picture?: StudyPicture): void; // that is to be shown
 }
 
@@ -33,6 +34,7 @@ class RunEntry {
   private readonly open: HTMLButtonElement;
   private readonly add: HTMLButtonElement;
   private readonly compute: HTMLButtonElement;
+  private readonly remove: HTMLButtonElement;
   private readonly state = make("p");
   private readonly outcome = make("div");
   private shown = "";
@@ -45,7 +47,12 @@ class RunEntry {
       "aria-label": `Add ${name} to the picture`,
       title: "Add to the picture",
     });
-    const state = make("div", { class: "row" }, this.state, this.compute);
+    this.remove = button("✕", () => acts.remove(name), {
+      class: "remove",
+      "aria-label": `Remove ${name}`,
+      title: "Remove the run from the study and the results",
+    });
+    const state = make("div", { class: "row" }, this.state, this.compute, this.remove);
     append(this.root, make("div", { class: "row" }, this.mark, this.open, this.add), state, this.outcome);
   }
 
@@ -56,6 +63,7 @@ class RunEntry {
     this.shown = key;
     const [text, act] = computing[run.status] ?? ["", ""];
     this.compute.hidden = text === "" || !canCompute;
+    this.remove.hidden = !canCompute;
     this.compute.textContent = text;
     this.compute.setAttribute("aria-label", `${act} ${run.name}`);
     const [mark, words] = isRunning ? ["⟳", "computing"] : (marks[run.status] ?? ["?", run.status]);
@@ -76,7 +84,7 @@ class RunEntry {
 
 function outcomeLines(run: Run): string[] {
   const one = ([label, count]: [string, number]) =>
-    run.is_branch ? `${kindInWords(label)}${count > 1 ? ` (${count})` : ""}` : `${label} ${count}`;
+    run.is_branch ? `${kindInWords(label)}${count > 1 ? ` (${count})` : ""}` : `${labelInWords(label)}: ${count}`;
   const labels = run.labels.map(one).join(", ");
   const ends = run.ends.map(([way, end]) => `${way ? `${way}: ` : ""}ends at ${end}`).join("; ");
   const lines = [labels, ends, run.failure ?? "", run.failure ? (run.remedy ?? "") : ""];

@@ -29,10 +29,16 @@ const usualActions: Action[] = [
   { name: "orbit", title: "Find the orbit", words: "the periodic orbit that the motion settles on", along: 0 },
 ];
 
+/** The same action in words that hold wherever the sliders are. */
+function ofSliders(action: Action): Action {
+  return { ...action, words: usualActions.find(({ name }) => name === action.name)?.words ?? action.words };
+}
+
 /** Sliders of parameters: the motion is computed again as they move. */
 export class SimulationView {
   readonly root = make("div", { class: "simulation" });
   private readonly heading = make("div");
+  private readonly words = make("p", { class: "note" }); // where the motion begins
   private readonly sliders = make("div", { class: "sliders" });
   private readonly message = make("p", { class: "note", role: "status" });
   private readonly motion = new MotionView();
@@ -53,12 +59,12 @@ export class SimulationView {
   ) {
     append(this.root, this.heading, this.sliders, this.message, this.motion.root);
     this.motion.clear();
-    fill(this.heading, make("p", { class: "note" }, "Choose a point and “Move parameters”, or open a model."));
-    if (workspace.session.opened.kind === "model")
-      workspace.source.model(null).then(
-        (model) => (this.base = model),
-        () => undefined,
-      );
+    fill(this.heading, make("p", { class: "note" }, "Choose a point and “Simulate with sliders”, or open a model."));
+  }
+
+  /** The opened model, as its file is now. */
+  setBase(model: Model): void {
+    this.base = model;
   }
 
   get isEmpty(): boolean {
@@ -75,20 +81,35 @@ export class SimulationView {
     this.start = { ...start, parameters: { ...start.parameters }, initial: { ...start.initial } };
     this.changed = new Set();
     this.last = null;
-    fill(this.heading, make("h2", {}, model.name), make("p", { class: "note" }, start.words), ...this.actions(model));
+    fill(this.heading, make("h2", {}, model.name), this.words, ...this.actions(model));
+    this.beginFrom(start.words);
     this.fillSliders(model);
     this.simulate();
   }
 
+  /** Says where the motion begins, here and after a reload. */
+  private beginFrom(words: string): void {
+    if (this.start) this.start.words = words;
+    const edited = this.start?.text ? " The text of the model was edited, and is not saved." : "";
+    this.words.textContent = `${words}${edited}`;
+  }
+
+  /** Whether an edited text is simulated. */
+  get isOfText(): boolean {
+    return Boolean(this.start?.text);
+  }
+
   private actions(model: Model): HTMLElement[] {
-    if (this.start?.text)
-      return [
-        make(
-          "p",
-          { class: "note" },
-          "This text of the model was edited: runs can only be computed with the stored one.",
-        ),
-      ];
+    if (this.start?.text) {
+      const row = make("div", { class: "row", role: "group", "aria-label": "Go on from here" });
+      const why = "Runs are computed with the model that is stored: save this text under “Model” first.";
+      for (const { title } of usualActions)
+        append(
+          row,
+          button(title, () => undefined, { disabled: true, title: why }),
+        );
+      return [row, make("p", { class: "note" }, why)];
+    }
     const view = this;
     const origin: ActionOrigin = {
       run: this.start?.run ?? null,
@@ -96,7 +117,7 @@ export class SimulationView {
       get parameters() {
         return model.parameters.map((one) => ({ ...one, value: view.start?.parameters[one.name] ?? one.value }));
       },
-      actions: model.actions && model.actions.length > 0 ? model.actions : usualActions,
+      actions: model.actions && model.actions.length > 0 ? model.actions.map(ofSliders) : usualActions,
       options: () => this.options(model),
       onChange: (act) => this.changed.add(act),
     };
@@ -133,9 +154,9 @@ export class SimulationView {
     const free = model.parameters.filter((one) => !one.dependent && one.value !== null);
     this.shown.clear();
     const rows = free.map((one) => {
-      // Every value is sent, so that what is shown is what is simulated; but an edited text has values of its own.
+      // Every value is sent, so that what is shown is what is simulated.
       const value = start.parameters[one.name] ?? one.value ?? 0;
-      if (!start.text) start.parameters[one.name] = value;
+      start.parameters[one.name] = value;
       const { root, show } = this.slider(
         one,
         value,
@@ -148,7 +169,10 @@ export class SimulationView {
     const states = model.states.map((one) => {
       const value = start.initial[one.name] ?? one.initial ?? 0,
         slid: Slid = { kind: "state", period: one.cyclic ? one.period : null };
-      const { root, show } = this.slider(one, value, slid, (now) => (start.initial[one.name] = now));
+      const { root, show } = this.slider(one, value, slid, (now) => {
+        start.initial[one.name] = now;
+        this.beginFrom("From the initial state that the sliders have.");
+      });
       this.shown.set(one.name, show);
       return root;
     });
@@ -245,11 +269,6 @@ export class SimulationView {
       const { model } = this,
         { run, text, parameters, initial, mode, duration } = this.start;
       const { names, hidden } = namesFor(null, model);
-      for (const name of text ? parametersIn(text, model) : [])
-        if (!names.includes(name)) {
-          names.push(name);
-          hidden.add(name);
-        }
       const before = (this.askedAt = performance.now());
       try {
         const motion = await workshop.simulate({ run, text, parameters, initial, mode, duration, names }, asked.signal);
@@ -291,6 +310,7 @@ export class SimulationView {
     start.initial = {};
     start.mode = "";
     this.last = null;
+    this.beginFrom("From the initial state of the model.");
     this.fillSliders(model);
     this.simulate();
   }
@@ -304,6 +324,7 @@ export class SimulationView {
       if (value !== null && value !== undefined) start.initial[state.name] = value;
     }
     start.mode = last.modes?.[last.modes.length - 1] ?? start.mode;
+    this.beginFrom("From where the motion before ended.");
     this.fillSliders(model);
     this.simulate();
   }
@@ -313,10 +334,4 @@ export class SimulationView {
 function setsForAll(text: string): boolean {
   const [beginning] = text.split(/^\s*\[/m);
   return /^\s*set\s*[.=]/m.test(beginning) || /^\s*\[set\]/m.test(text);
-}
-
-/** Parameters of a model that an edited text of it still has. */
-function parametersIn(text: string, model: Model): string[] {
-  const has = (name: string) => new RegExp(`^\\s*(parameters\\.)?${name}\\s*=`, "m").test(text);
-  return model.parameters.filter((one) => !one.dependent && has(one.name)).map(({ name }) => name);
 }

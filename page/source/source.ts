@@ -4,6 +4,7 @@ import type {
   GrazingAnswer,
   Job,
   Model,
+  ModelText,
   Motion,
   PictureWish,
   Point,
@@ -67,6 +68,12 @@ export interface Workshop {
   schema(): Promise<unknown>;
   words(): Promise<unknown>;
   study(): Promise<StudyText>;
+  /** The model that a text describes. */
+  modelOf(text: string): Promise<Model>;
+  /** Saves a text in the file of the opened model. */
+  keepModel(text: string, revision: number, replace: boolean): Promise<ModelText>;
+  /** Takes a run with its points out of the results. */
+  remove(run: string): Promise<unknown>;
   keepStudy(text: string, revision: number, saving: StudySaving): Promise<StudyText>;
   propose(wish: ProposalWish): Promise<Proposal>;
   start(work: { text: string } | { runs: string[] }): Promise<StartedJob>;

@@ -1,6 +1,7 @@
-import type { Mistake, Model, StudyText } from "./contract.js";
+import type { Job, Model, StudyText } from "./contract.js";
 import { append, button, fill, labelled, make, messageOf } from "./dom.js";
 import { studyHelp } from "./editor_help.js";
+import { mistakeList, mistakesInWords } from "./mistake_list.js";
 import { Refusal } from "./source.js";
 import { TextEditor } from "./text_editor.js";
 import type { Workspace } from "./workspace.js";
@@ -16,6 +17,7 @@ export class StudyView {
   private study: StudyText | null = null;
   private changed = false;
   private conflict = false;
+  private forget: () => void = () => undefined; // the job that is awaited
 
   constructor(
     private readonly workspace: Workspace,
@@ -125,15 +127,29 @@ export class StudyView {
       await this.workspace.refresh();
       const { runs: own } = await workshop.check("study", study.text);
       const wanted = this.workspace.runs.filter(({ name, status }) => status !== "complete" && own.includes(name));
+      if (own.length === 0) return this.tell(study, "; it has no runs yet");
       if (wanted.length === 0) return this.tell(study, "; all its runs are complete");
-      const { runs } = await workshop.start({ runs: wanted.map(({ name }) => name) });
+      const job = await workshop.start({ runs: wanted.map(({ name }) => name) });
+      this.forget();
+      this.forget = this.workspace.on("jobs", (jobs) => this.tellJob(jobs.find(({ id }) => id === job.id)));
       this.tell(
         study,
-        `; ${runs.length === 1 ? "one run is" : `${runs.length} runs are`} computed: ${runs.join(", ")}`,
+        `; ${job.runs.length === 1 ? "one run is" : `${job.runs.length} runs are`} being computed: ${job.runs.join(", ")}`,
       );
+      this.tellJob(this.workspace.jobs.find(({ id }) => id === job.id));
     } catch (error) {
       this.say(`Saved, but not computed: ${messageOf(error)}`, true);
     }
+  }
+
+  /** What has become of the runs, unless the text was changed meanwhile. */
+  private tellJob(job: Job | undefined): void {
+    if (!job || job.state === "running" || job.state === "waiting") return;
+    this.forget();
+    if (!this.study || this.changed || this.conflict) return;
+    const runs = job.runs.join(", ");
+    if (job.state === "failed") this.say(`Saved, but not computed: ${job.message}`, true);
+    else this.tell(this.study, job.state === "complete" ? `; computed: ${runs}` : `; stopped: ${runs}`);
   }
 
   /** Where the text is, and its mistakes, each of which leads to its place. */
@@ -141,15 +157,10 @@ export class StudyView {
     const state = study.saved ? `Saved in ${study.name}` : "Not saved yet";
     const mistakes = study.errors ?? [];
     if (mistakes.length === 0) return this.say(`${state}${more}.`);
-    const entry = ({ problem, remedy, line, column }: Mistake) => {
-      const words = remedy ? `${problem}: ${remedy}` : problem;
-      const place = line ? button(`line ${line}`, () => this.editor?.goTo(line, column)) : null;
-      return make("li", {}, place, place ? ` ${words}` : words);
-    };
     fill(
       this.message,
-      make("p", {}, `${state}${more}: the text has ${mistakes.length === 1 ? "a mistake" : "mistakes"}.`),
-      make("ul", { "aria-label": "Mistakes" }, ...mistakes.map(entry)),
+      make("p", {}, `${state}${more}: ${mistakesInWords(mistakes)}.`),
+      mistakeList(mistakes, () => this.editor),
     );
     this.message.className = "problem";
   }

@@ -25,6 +25,7 @@ export interface EditorHelp {
   /** The meaning of a word there; empty if unknown. */
   meaning(text: string, position: number, word: string): string;
   changed(text: string): void;
+  checked?(mistakes: Mistake[]): void;
 }
 
 const checkDelay = 400; // milliseconds after the last change
@@ -159,6 +160,7 @@ export class TextEditor {
       mistakes = [{ problem: error.problem, remedy: error.remedy, line: error.line, column: error.column }];
     }
     if (text !== this.text) return;
+    this.help.checked?.(mistakes);
     this.view.dispatch(
       setDiagnostics(
         this.view.state,

@@ -8,6 +8,7 @@ export interface Selection {
 
 interface Happenings {
   selection: (selection: Selection | null) => void;
+  enter: () => void; // the keyboard goes to the chosen point
   runs: (changed: Set<string>) => void; // lists have changed, and the rows of these runs
   special: (run: string) => void; // the special points of a run are known
   jobs: (jobs: Job[]) => void;
@@ -30,6 +31,7 @@ export class Workspace {
   private readonly asked = new Set<string>();
   private readonly listeners: { [K in keyof Happenings]: Set<Happenings[K]> } = {
     selection: new Set(),
+    enter: new Set(),
     runs: new Set(),
     special: new Set(),
     jobs: new Set(),
@@ -50,6 +52,10 @@ export class Workspace {
     const same = this.selection?.run === selection?.run && this.selection?.number === selection?.number;
     this.selection = selection;
     if (!same) for (const act of this.listeners.selection) act(selection);
+  }
+
+  enter(): void {
+    for (const act of this.listeners.enter) act();
   }
 
   announce(text: string): void {

@@ -16,9 +16,6 @@ from . import _graze
 from ._errors import Error, InputError, WorkersLost
 from ._progress import Told
 
-WANTED = 0.5  # seconds that a part is to take
-FEWEST = 5  # near the end, parts are smaller by this factor at most
-GROWTH = 8  # the next part is larger by this factor at most than those whose duration is known
 ATTEMPTS = 4  # at a part whose worker is lost
 
 
@@ -61,45 +58,21 @@ class _Part:
 
 class _OpenWork:
     """Work that waits for its items: a run for its chains, or a yield for its devices. It is cut into parts as workers
-    become free: the first ones are small, later ones take about WANTED seconds, and the last ones less, so that all workers
-    end together."""
+    become free."""
 
     def __init__(self, number: int, text: bytes, ranges: List[Tuple[int, int]]):
         self.number = number
         self.text = text
-        self.ranges = deque(ranges)
-        self.left = sum(last - first for first, last in ranges)  # items that are in no part
-        self.open = self.left  # items that have not come
-        self.seconds = 0.0
-        self.timed = 0  # items that have taken so long
-        self.largest = 0
+        self.sizes = _graze.PartSizes(ranges)
+        self.open = sum(last - first for first, last in ranges)  # items that have not come
+        self.is_closed = False
+
+    def has_more(self) -> bool:
+        return self.sizes.has_more and not self.is_closed
 
     def note(self, part: _Part, seconds: float) -> None:
         self.open -= part.last - part.first
-        self.seconds += seconds
-        self.timed += part.last - part.first
-        self.largest = max(self.largest, part.last - part.first)
-
-    def size(self, workers: int) -> int:
-        """Items of the next part."""
-        if not self.timed:
-            return 1  # an item may take minutes
-        wanted = WANTED * self.timed / max(self.seconds, 1e-6)
-        size = int(min(wanted, max(self.left / (2 * workers), wanted / FEWEST), GROWTH * self.largest))
-        if size > _graze.PartExchange.together:
-            size -= size % _graze.PartExchange.together
-        return max(1, min(size, self.ranges[0][1] - self.ranges[0][0]))
-
-    def cut(self, workers: int) -> Tuple[int, int]:
-        """Items of the next part: the first one, and the one after the last."""
-        first, last = self.ranges[0]
-        end = first + self.size(workers)
-        if end < last:
-            self.ranges[0] = end, last
-        else:
-            self.ranges.popleft()
-        self.left -= end - first
-        return first, end
+        self.sizes.note(part.last - part.first, seconds)
 
 
 def check_executor(executor: Executor) -> None:
@@ -188,16 +161,16 @@ class Parts:
             if part.work.number in self._works:
                 return part
         for work in self._works.values():
-            if work.ranges:
-                first, last = work.cut(self._workers)
+            if work.has_more():
+                first, last = work.sizes.cut(self._workers)
                 content = self.exchange.part(work.number, first, last)
                 if content:
                     return _Part(work, first, last, content)
-                work.ranges.clear()  # it was closed meanwhile
+                work.is_closed = True
         return None
 
     def _submit(self) -> None:
-        if not self._again and not any(work.ranges for work in self._works.values()):
+        if not self._again and not any(work.has_more() for work in self._works.values()):
             return
         self._count_workers()
         while len(self._going) < 2 * self._workers + 1:

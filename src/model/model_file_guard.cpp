@@ -86,7 +86,7 @@ private:
         const char c = text_[at_ + 1];
         if (!is_key_character(c) && c != '"' && c != '\'' && c != ']') {
             ++at_;
-            fail("a table without a name", "write its name between the brackets, as in [states] or [[transitions]]");
+            fail("a table without a name", "write its name between the brackets, as in [name] or [[name]]");
         }
     }
 

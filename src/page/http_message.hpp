@@ -17,6 +17,8 @@ struct HttpRequest {
     std::map<std::string, std::string> query{}; ///< what follows the path, behind '?'
     RequestOrigin origin{};
     std::string body{}; ///< empty until it has been read
+    std::function<bool()>
+        has_left{}; ///< whether the client has closed its connection meanwhile; empty: it is not known
 };
 
 /// Takes the parts of an answer that has no end yet.

@@ -1,9 +1,11 @@
 #include "graze/base/input_error.hpp"
 #include "graze/results/name_advice.hpp"
+#include "graze/study/stored_study.hpp"
 #include "page/error_answer.hpp"
 #include "page/page_route.hpp"
 #include "page/request_json.hpp"
 #include "page/result_watch.hpp"
+#include "page/stored_subject.hpp"
 
 #include <fmt/format.h>
 
@@ -58,6 +60,33 @@ HttpAnswer stop_job(PageParts& parts, const PageCall& call) {
     return json_answer(job_json(*job));
 }
 
+/// Refuses to remove a run from which another one begins.
+void require_not_needed(const Study& study, const std::string& run) {
+    for (const StudyRun& other : study.runs)
+        for (const auto& [name, place] : other.needs())
+            if (name == run && other.name != run)
+                throw RefusedRequest(409, fmt::format("run '{}' needs run '{}'", other.name, run),
+                                     fmt::format("remove '{}' first", other.name));
+}
+
+HttpAnswer remove_run(PageParts& parts, const PageCall& call) {
+    if (parts.jobs.is_busy())
+        throw RefusedRequest(409, "a job computes runs", "wait for its end, or stop it");
+    {
+        stored_record(present_results(parts.session), call.id);
+        require_not_needed(*parts.session.study(), call.id);
+        ResultFile file(parts.session.results_path(), ResultFile::Access::write);
+        require_not_needed(stored_study(file), call.id);
+        Study asked = asked_study(file); // the file has it as well
+        file.remove_run(call.id);
+        std::erase_if(asked.runs, [&](const StudyRun& run) { return run.name == call.id; });
+        if (stored_set(file))
+            store_study(asked, file);
+    }
+    parts.session.look_at_results();
+    return json_answer({{"removed", call.id}});
+}
+
 HttpAnswer answer_events(PageParts& parts, const PageCall&) {
     return parts.events.listen();
 }
@@ -68,6 +97,7 @@ std::vector<PageRoute> job_routes() {
     return {{"POST", "/jobs", begin_job, {"text", "runs"}},
             {"GET", "/jobs", answer_jobs},
             {"DELETE", "/jobs/", stop_job},
+            {"DELETE", "/runs/*", remove_run},
             {"GET", "/events", answer_events}};
 }
 

@@ -11,9 +11,10 @@
 namespace graze {
 
 struct LoopbackLimits {
-    std::size_t body = std::size_t{4} << 20;    ///< bytes of a request
-    std::size_t connections = 32;               ///< at once
-    std::chrono::milliseconds patience{10'000}; ///< with slow clients: for a request, and for each 64 KiB of an answer
+    std::size_t body = std::size_t{4} << 20;     ///< bytes of a request
+    std::size_t connections = 32;                ///< at once
+    std::size_t answers = std::size_t{64} << 20; ///< bytes of long answers that wait for their readers; then no others
+    std::chrono::milliseconds patience{10'000};  ///< with slow clients: for a request, and for each 64 KiB of an answer
 };
 
 /// A server that only programs of this machine reach (127.0.0.1). Each connection has one request. Whatever a client

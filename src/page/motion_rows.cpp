@@ -13,7 +13,7 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t most_thinned_rows = 20'000, most_numbers = 1'000'000;
+constexpr std::size_t most_thinned_rows = 20'000, most_numbers = 400'000;
 constexpr std::size_t longest_name = 4000;
 
 /// Leaves out every other beginning of an arc and every other contact.

@@ -20,6 +20,14 @@ bool has_path(const PageRoute& route, std::string_view path, std::string* id = n
     if (!path.starts_with(prefix))
         return false;
     path.remove_prefix(prefix.size());
+    if (route.path.ends_with('*')) {
+        const std::string_view before = std::string_view(route.path).substr(0, route.path.size() - 1);
+        if (!path.starts_with(before) || path.size() == before.size() || path.find('/', before.size()) != path.npos)
+            return false;
+        if (id != nullptr)
+            *id = path.substr(before.size());
+        return true;
+    }
     if (!route.path.ends_with('/'))
         return path == route.path;
     constexpr std::size_t most_digits = 9;
@@ -31,6 +39,48 @@ bool has_path(const PageRoute& route, std::string_view path, std::string* id = n
     return !number.empty() && number.size() <= most_digits &&
            std::ranges::all_of(number, [](char c) { return c >= '0' && c <= '9'; });
 }
+
+/// Why the work on an answer ends before it is there.
+enum class CutShort { no, stopping, late, left };
+
+/// Says when work on an answer has to end: a query of a result file would go on after the server has been told to end,
+/// or its client has left, and a file may ask for motions of any duration.
+class AnswerLimit {
+public:
+    AnswerLimit(const PageParts& parts, const HttpRequest& request)
+        : parts_(&parts), request_(&request), late_(time_limit(std::chrono::duration<double>(parts.work).count())) {}
+
+    bool is_reached() {
+        cut_ = parts_->stopping                             ? CutShort::stopping
+               : late_()                                    ? CutShort::late
+               : request_->has_left && request_->has_left() ? CutShort::left
+                                                            : cut_;
+        return cut_ != CutShort::no;
+    }
+    /// The answer to what could not be done.
+    HttpAnswer refusal(const std::exception_ptr& failure) const {
+        switch (cut_) {
+        case CutShort::stopping:
+            return error_answer(503, "the server ends", "start it again");
+        case CutShort::late:
+            return error_answer(400, fmt::format("the answer takes more than {} of work", shown(parts_->work)),
+                                "ask for less; if the file is a stranger's, it may be made to do so");
+        case CutShort::left: // nobody reads it
+        case CutShort::no:
+            break;
+        }
+        return error_answer(failure);
+    }
+
+private:
+    static std::string shown(std::chrono::milliseconds time) {
+        return fmt::format("{} seconds", std::chrono::duration<double>(time).count());
+    }
+    const PageParts* parts_;
+    const HttpRequest* request_;
+    std::function<bool()> late_;
+    CutShort cut_ = CutShort::no;
+};
 
 } // namespace
 
@@ -68,11 +118,11 @@ std::optional<HttpAnswer> PageRoutes::refuse(const HttpRequest& request) const {
 }
 
 HttpAnswer PageRoutes::answer(PageParts& parts, const HttpRequest& request) const {
+    AnswerLimit limit(parts, request);
     try {
-        // A query of a result file would go on after the server has been told to end, and a file may ask for motions of
-        // any duration.
-        constexpr double most_seconds = 30;
-        const QueryInterruption interruption(time_limit(most_seconds, [&] { return parts.stopping.load(); }));
+        if (parts.stopping)
+            throw RefusedRequest(503, "the server ends", "start it again");
+        const QueryInterruption interruption([&] { return limit.is_reached(); });
         const PageRoute* route = find(request, false);
         PageCall call{request, nlohmann::json::object(), ""};
         has_path(*route, request.path, &call.id);
@@ -84,7 +134,7 @@ HttpAnswer PageRoutes::answer(PageParts& parts, const HttpRequest& request) cons
             require_known(name, has_body ? std::vector<std::string>() : route->members, "part of the address");
         return route->answer(parts, call);
     } catch (...) {
-        return error_answer(std::current_exception());
+        return limit.refusal(std::current_exception());
     }
 }
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <string>
 #include <vector>
@@ -24,13 +25,14 @@ struct PageParts {
     RunsMemory& runs;
     LoopbackLimits limits;
     const std::atomic<bool>& stopping; ///< ends long answers
+    std::chrono::milliseconds work;    ///< for the queries of one answer
 };
 
 /// A request whose address is known, with what is in it.
 struct PageCall {
     const HttpRequest& http;
     nlohmann::json body; ///< an object; empty for requests without a body
-    std::string id;      ///< the last part of an address that ends in a number
+    std::string id;      ///< the last part of an address that ends in a number or a name
 
     /// A member of the query. @throws InputError if it is missing
     const std::string& query(const char* name) const;
@@ -40,7 +42,7 @@ struct PageCall {
 /// What is answered at one address.
 struct PageRoute {
     std::string method;
-    std::string path; ///< behind /api; if it ends in a slash, a number follows
+    std::string path; ///< behind /api; if it ends in a slash, a number follows, and for '*' a name
     std::function<HttpAnswer(PageParts& parts, const PageCall& call)> answer;
     std::vector<std::string> members{}; ///< that the body may have, or the query where there is no body
 };

@@ -67,7 +67,7 @@ class PageServer::Parts {
 public:
     explicit Parts(const PageOptions& options)
         : session_(page_subject(options.opened, options.model), options.folder), limits_{.patience = options.patience},
-          server_(options.port, limits_), guard_(random_token(), server_.port()),
+          work_(options.work), server_(options.port, limits_), guard_(random_token(), server_.port()),
           address_(fmt::format("http://127.0.0.1:{}/?token={}", server_.port(), guard_.token())),
           jobs_(
               [this, threads = options.threads](const std::vector<std::string>& runs, const JobControl& control) {
@@ -125,7 +125,7 @@ private:
     HttpAnswer answer(const HttpRequest& request) {
         if (is_page(request))
             return page_answer();
-        PageParts parts{session_, jobs_, events_, runs_, limits_, stopping_};
+        PageParts parts{session_, jobs_, events_, runs_, limits_, stopping_, work_};
         return routes_.answer(parts, request);
     }
 
@@ -136,6 +136,7 @@ private:
 
     StudySession session_;
     LoopbackLimits limits_;
+    std::chrono::milliseconds work_;
     LoopbackServer server_;
     RequestGuard guard_;
     std::string address_;

@@ -27,10 +27,21 @@ bool is_result_file(const std::string& path) {
     return file.read(start.data(), start.size()) == signature.size() && start == signature;
 }
 
+/// A picture, say: its beginning has a zero byte, which no text has.
+bool is_no_text(const std::string& path) {
+    PlainFile file(path, "file");
+    std::string start(512, ' ');
+    start.resize(file.read(start.data(), start.size()));
+    return start.find('\0') != std::string::npos;
+}
+
 PageSubject subject_in_file(const std::string& path) {
     // The whole file is read only if it is a text.
     if (is_result_file(path))
         return {PageSubject::Kind::results, path, path};
+    if (is_no_text(path))
+        throw InputError(Place{path, 0, 0}, "this is not a text file, nor results of graze",
+                         "name a study, a model, or results; a picture opens in a viewer of pictures");
     std::string text = read_text_file(path, "file", longest_model);
     const bool study = is_study_text(text, path);
     return {study ? PageSubject::Kind::study : PageSubject::Kind::model, path, path, std::move(text)};

@@ -133,8 +133,10 @@ private:
             add("curve", "Curve of such points", "where this onset of chatter is as two parameters change", 2);
         if (type_ == PointType::grazing)
             add("ladder", "Ladder of grazings", "the next grazings, each with one contact more, up to chatter", 1);
-        add("follow", "Follow", "the same branch along this parameter, with other bounds if wanted", 1,
-            has_own_parameter() ? "same" : "");
+        add("follow", "Follow",
+            has_own_parameter() ? "the same branch along this parameter, with other bounds if wanted"
+                                : "follow this orbit as a parameter changes",
+            1, has_own_parameter() ? "same" : "");
         if (has_own_parameter())
             add_another("the branch of this orbit along another parameter");
         const Orbit& orbit = origin_.orbit->point.solution.orbit;

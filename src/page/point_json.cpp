@@ -115,6 +115,17 @@ nlohmann::json plain_point_json(const StoredRun& run, const PointRecord& point) 
     return one;
 }
 
+/// Whether it is known what a motion does in the end.
+bool has_settled(Label label) {
+    return label == Label::periodic || label == Label::quasi_periodic || label == Label::chaotic ||
+           label == Label::equilibrium;
+}
+
+/// How a motion ended, where that was not asked for.
+std::string_view early_ending(Ending ending) {
+    return ending == Ending::stopped || ending == Ending::end_time ? "" : name_of(ending);
+}
+
 Table sample_table(const StoredRun& run, const SampleSet& samples) {
     std::vector<Table::Column> columns{{"sampling", ""}, {"t", run.model.time_unit}};
     for (const ResultColumn& value : run.record.values)
@@ -148,7 +159,7 @@ nlohmann::json motion_point_json(const StoredRun& run, const PointRecord& point)
     PointFacts facts;
     facts.add("label", label);
     if (result.period > 0)
-        facts.add("period", fmt::format("{} returns", result.period));
+        facts.add("repeats after", fmt::format("{} return{}", result.period, result.period == 1 ? "" : "s"));
     if (result.duration > 0)
         facts.add("duration", result.duration, time_unit);
     facts.add("signature", result.signature);
@@ -160,9 +171,9 @@ nlohmann::json motion_point_json(const StoredRun& run, const PointRecord& point)
                                            : fmt::format("{:.4g}", *result.lyapunov));
     if (result.label == Label::periodic)
         facts.add("residual", result.residual);
-    facts.add("returns until settled", static_cast<double>(result.cycles));
+    facts.add(has_settled(result.label) ? "returns until settled" : "returns", static_cast<double>(result.cycles));
     facts.add("simulated time", result.time, time_unit);
-    facts.add("ending", name_of(result.outcome.ending));
+    facts.add("ending", early_ending(result.outcome.ending));
     facts.add("detail", result.outcome.detail);
     if (!name_at(run.record.directions, point.direction).empty())
         facts.add("direction", name_at(run.record.directions, point.direction));

@@ -15,8 +15,9 @@ namespace graze {
 
 namespace {
 
-std::function<bool()> interrupted_by(const PageParts& parts) {
-    return [&stopping = parts.stopping] { return stopping.load(); };
+/// Whether nobody waits for an answer any more.
+std::function<bool()> interrupted_by(const PageParts& parts, const PageCall& call) {
+    return [&parts, &call] { return parts.stopping || (call.http.has_left && call.http.has_left()); };
 }
 
 HttpAnswer answer_point(PageParts& parts, const PageCall& call) {
@@ -43,17 +44,39 @@ HttpAnswer answer_motion(PageParts& parts, const PageCall& call) {
     const NamedPoint point(call);
     const std::vector<std::string> names = texts_member(call.body, "names");
     return json_answer(
-        motion_json(present_results(parts.session), point.run, point.number, names, interrupted_by(parts)));
+        motion_json(present_results(parts.session), point.run, point.number, names, interrupted_by(parts, call)));
 }
 
 HttpAnswer answer_model(PageParts& parts, const PageCall& call) {
     const std::string run = call.has_query("run") ? call.query("run") : "";
     const Model model = model_of_run(parts.session, run);
-    nlohmann::json answer = model_json(model, run.empty() ? parts.session.subject().text : "");
+    const auto opened = run.empty() ? parts.session.model_text() : std::nullopt;
+    nlohmann::json answer = model_json(model, opened ? opened->text : "");
+    if (opened && !opened->file.empty()) {
+        answer["file"] = opened->file;
+        answer["revision"] = opened->revision;
+    }
     answer["actions"] = nlohmann::json::array();
     if (run.empty() && parts.session.can_compute())
         answer["actions"] = actions_json(actions_at(point_origin(model)));
     return json_answer(answer);
+}
+
+/// What a text of a model describes, which no file has yet.
+HttpAnswer answer_model_text(PageParts&, const PageCall& call) {
+    const std::string text = text_member(call.body, "text");
+    nlohmann::json answer = model_json(parse_model(text, "model"), text);
+    answer["actions"] = nlohmann::json::array();
+    return json_answer(answer);
+}
+
+HttpAnswer keep_model(PageParts& parts, const PageCall& call) {
+    const std::size_t before = parts.session.text().revision;
+    const ModelText kept = parts.session.keep_model(text_member(call.body, "text"), count_member(call.body, "revision"),
+                                                    flag_member(call.body, "replace", false));
+    if (const std::size_t now = parts.session.text().revision; now != before)
+        parts.events.tell("study", {{"revision", now}});
+    return json_answer({{"text", kept.text}, {"file", kept.file}, {"revision", kept.revision}});
 }
 
 /// Values by name; values of other types are refused.
@@ -77,7 +100,7 @@ HttpAnswer answer_simulation(PageParts& parts, const PageCall& call) {
         wish.duration = number_member(call.body, "duration");
     wish.mode = text_member(call.body, "mode", "");
     wish.names = texts_member(call.body, "names");
-    wish.interrupted = interrupted_by(parts);
+    wish.interrupted = interrupted_by(parts, call);
     return json_answer(simulation_json(model, wish));
 }
 
@@ -95,7 +118,7 @@ HttpAnswer answer_trip(PageParts& parts, const PageCall& call) {
     wish.until = text_member(options, "until", "");
     if (options.contains("cycles") && !options["cycles"].is_null())
         wish.cycles = number_member(options, "cycles");
-    wish.interrupted = interrupted_by(parts);
+    wish.interrupted = interrupted_by(parts, call);
     const NamedPoint point(call);
     return json_answer(trip_json(present_results(parts.session), point.run, point.number, wish));
 }
@@ -107,6 +130,8 @@ std::vector<PageRoute> point_routes() {
         {"GET", "/point", answer_point, {"run", "number"}},
         {"POST", "/motion", answer_motion, {"run", "number", "names"}},
         {"GET", "/model", answer_model, {"run"}},
+        {"POST", "/model", answer_model_text, {"text"}},
+        {"PUT", "/model", keep_model, {"text", "revision", "replace"}},
         {"POST", "/simulate", answer_simulation, {"run", "text", "parameters", "initial", "mode", "duration", "names"}},
         {"POST", "/grazing", answer_grazing, {"run", "number"}},
         {"POST", "/trip", answer_trip, {"run", "number", "options"}}};

@@ -86,9 +86,12 @@ private:
     }
 
     void add_option(const std::string& key, const std::string& value) {
-        // The kind follows from the action.
+        if (key == "kind")
+            throw InputError(
+                fmt::format("'{}' makes a run of kind {}: the action decides the kind", action_.name, name_of(kind_)),
+                "leave 'kind' out, or choose another action");
         const std::vector<std::string> known = names_of(study_keys(kind_));
-        if (key == "kind" || std::ranges::find(known, key) == known.end())
+        if (std::ranges::find(known, key) == known.end())
             throw InputError(
                 fmt::format("'{}' is no key of a run of kind {}", printable_line(shortened(key, 100)), name_of(kind_)),
                 name_advice(key, known, ""));

@@ -41,6 +41,9 @@ HttpAnswer answer_session(PageParts& parts, const PageCall&) {
 
 HttpAnswer answer_runs(PageParts& parts, const PageCall&) {
     const std::shared_ptr<const Study> study = parts.session.study();
+    const std::string traces = results_trace(parts.session.results_path());
+    if (const nlohmann::json known = parts.runs.find_all(traces, study); !known.is_null())
+        return json_answer(known);
     const auto file = parts.session.results();
     if (!file)
         return json_answer(missing_runs_json(*study));
@@ -49,6 +52,7 @@ HttpAnswer answer_runs(PageParts& parts, const PageCall&) {
     for (nlohmann::json& one : list)
         if (outdated.contains(one["name"].get<std::string>()))
             one["status"] = "outdated";
+    parts.runs.keep_all(traces, study, list);
     return json_answer(list);
 }
 

@@ -43,6 +43,13 @@ std::string text_of(const nlohmann::json& value, const char* name) {
     return value.get<std::string>();
 }
 
+/// What a reader of JSON says, without the name that it gives the mistake.
+std::string words_of(const nlohmann::json::exception& error) {
+    const std::string text = error.what();
+    const auto end = text.starts_with('[') ? text.find("] ") : std::string::npos;
+    return end == std::string::npos ? text : text.substr(end + 2);
+}
+
 } // namespace
 
 nlohmann::json request_json(std::string_view body) {
@@ -60,7 +67,7 @@ nlohmann::json request_json(std::string_view body) {
             return true;
         });
     } catch (const nlohmann::json::exception& error) {
-        throw InputError("the request is no JSON: " + printable_line(shortened(error.what(), 300)),
+        throw InputError("the request is no JSON: " + printable_line(shortened(words_of(error), 300)),
                          "send one object in UTF-8");
     }
     if (!request.is_object())

@@ -2,18 +2,26 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/results/query_interruption.hpp"
+#include "page/error_answer.hpp"
 #include "page/runs_json.hpp"
 #include "page/study_file.hpp"
 
 #include <nlohmann/json.hpp>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace graze {
 
 namespace {
 
-/// Text that differs after the file, or the journal with its latest changes, has been written to.
-std::string traces_of(const std::string& path) {
-    return file_trace(path) + ';' + file_trace(path + "-wal");
+/// Gives free memory back to the system: the allocator keeps most of what threads have used for studies and results,
+/// which is much where runs vary many values.
+void give_memory_back() {
+#ifdef __GLIBC__
+    ::malloc_trim(0);
+#endif
 }
 
 } // namespace
@@ -58,15 +66,32 @@ void ResultWatch::work() {
 void ResultWatch::look() {
     try {
         look_at_study(*session_, *events_);
-        look_at_runs();
     } catch (const std::exception&) { // NOLINT(bugprone-empty-catch): as while it is written; it looks again soon
+    }
+    try {
+        look_at_runs();
+    } catch (const InputError& failure) {
+        tell_failure(failure);
+    } catch (const std::exception&) { // NOLINT(bugprone-empty-catch): as without memory; it looks again soon
     }
 }
 
+/// A file that is being written or replaced cannot be read for a moment: only what two looks find is told, once.
+void ResultWatch::tell_failure(const InputError& failure) {
+    const bool again = failure_ == failure.what();
+    failure_told_ = failure_told_ && again;
+    failure_ = failure.what();
+    if (!again || failure_told_)
+        return;
+    failure_told_ = true;
+    revisions_.clear();
+    events_->tell("runs", {{"runs", nlohmann::json::array()}, {"error", error_json(failure)}});
+}
+
 void ResultWatch::look_at_runs() {
-    const std::string traces = traces_of(session_->results_path());
+    const std::string traces = results_trace(session_->results_path());
     const std::shared_ptr<const Study> study = session_->study();
-    if (traces == seen_ && study == seen_study_)
+    if (traces == seen_ && study == seen_study_ && failure_.empty())
         return;
     const auto file = session_->results();
     const std::set<std::string> outdated = file ? session_->outdated(*file) : std::set<std::string>();
@@ -82,13 +107,16 @@ void ResultWatch::look_at_runs() {
     const bool others = revisions.size() != revisions_.size() ||
                         !std::equal(revisions.begin(), revisions.end(), revisions_.begin(),
                                     [](const auto& one, const auto& other) { return one.first == other.first; });
-    if (others)
+    if (others && file)
         session_->look_at_results();
     // What was read may be older than the traces, never newer: a later change leaves other ones.
     seen_ = traces;
     seen_study_ = study;
-    if (revisions == revisions_)
+    failure_.clear();
+    give_memory_back();
+    if (revisions == revisions_ && !failure_told_)
         return;
+    failure_told_ = false;
     revisions_ = std::move(revisions);
     events_->tell("runs", {{"runs", std::move(list)}});
 }

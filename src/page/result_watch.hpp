@@ -17,7 +17,7 @@ namespace graze {
 void look_at_study(StudySession& session, EventStream& events);
 
 /// Looks at the files of a session now and then, and tells listeners what has changed, whoever changed it: the event
-/// `runs` with the revisions of all runs, and `study` with that of the text.
+/// `runs` with the revisions of all runs, or why they cannot be read, and `study` with that of the text.
 class ResultWatch {
 public:
     /// @param pause between two looks
@@ -34,6 +34,7 @@ private:
     void work();
     void look();
     void look_at_runs();
+    void tell_failure(const InputError& failure);
 
     StudySession* session_;
     EventStream* events_;
@@ -41,6 +42,8 @@ private:
     std::string seen_;                             ///< size and time of the result file when it was read
     std::shared_ptr<const Study> seen_study_;      ///< with which the runs were compared
     std::map<std::string, std::string> revisions_; ///< with their states
+    std::string failure_; ///< why the runs could not be read at the last look; empty: they were
+    bool failure_told_ = false;
     std::mutex mutex_;
     std::condition_variable awaited_;
     bool now_ = false;

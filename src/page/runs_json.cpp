@@ -160,6 +160,22 @@ void RunsMemory::keep_only(const std::vector<RunRecord>& runs) {
                   [&](const auto& one) { return std::ranges::find(runs, one.first, &RunRecord::name) == runs.end(); });
 }
 
+nlohmann::json RunsMemory::find_all(const std::string& traces, const std::shared_ptr<const Study>& study) const {
+    const std::lock_guard lock(mutex_);
+    return traces == traces_ && study == study_ ? all_ : nlohmann::json();
+}
+
+void RunsMemory::keep_all(const std::string& traces, const std::shared_ptr<const Study>& study,
+                          const nlohmann::json& list) {
+    const std::lock_guard lock(mutex_);
+    const auto is_read = [&](const nlohmann::json& one) {
+        return one["revision"] == "" || runs_.contains(one["name"].get<std::string>());
+    };
+    all_ = std::ranges::all_of(list, is_read) ? list : nlohmann::json();
+    traces_ = traces;
+    study_ = study;
+}
+
 std::string run_revision(const ResultFile& file, const RunRecord& run) {
     std::string names;
     for (const PointName& one : run.point_names)

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -23,9 +24,18 @@ public:
     /// Forgets all other runs.
     void keep_only(const std::vector<RunRecord>& runs);
 
+    /// The list of all runs, if the result file has these traces (results_trace) and the study is the same as when it
+    /// was kept; null otherwise. The settings of runs with many values take long to read.
+    nlohmann::json find_all(const std::string& traces, const std::shared_ptr<const Study>& study) const;
+    /// Keeps the list if all runs of the file could be read. @param traces before it was read
+    void keep_all(const std::string& traces, const std::shared_ptr<const Study>& study, const nlohmann::json& list);
+
 private:
     mutable std::mutex mutex_;
     std::map<std::string, std::pair<std::string, nlohmann::json>> runs_; ///< by name, with their revision
+    std::string traces_;
+    std::shared_ptr<const Study> study_;
+    nlohmann::json all_;
 };
 
 /// The runs of a result file with how they ended, in their order there. With a study, those that it has come first, and

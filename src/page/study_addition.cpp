@@ -12,6 +12,20 @@
 
 namespace graze {
 
+namespace {
+
+/// What comes first is a table: a key would belong to the last table of the text before it.
+void require_table_first(std::string_view addition) {
+    std::size_t begin = 0;
+    const auto skip = [&] { begin = std::min(addition.find_first_not_of(" \t\r\n", begin), addition.size()); };
+    for (skip(); begin < addition.size() && addition[begin] == '#'; skip()) // a comment
+        begin = std::min(addition.find('\n', begin), addition.size());
+    if (begin < addition.size() && addition[begin] != '[')
+        throw InputError("the text begins with a key outside of tables", "begin with a table [runs.NAME]");
+}
+
+} // namespace
+
 void require_only_new(const std::string& addition, const Study& study) {
     const TomlReader reader("");
     const toml::table root = parse_toml(addition, "", "docs/study-format.md shows how a study is written");
@@ -27,6 +41,7 @@ void require_only_new(const std::string& addition, const Study& study) {
         for (const TomlEntry& one : reader.entries(reader.table(group), group.path))
             group.name == "runs" ? require_new(one, "run", study.runs) : require_new(one, "picture", study.pictures);
     }
+    require_table_first(addition);
 }
 
 std::string free_study_file(const std::string& folder, const std::string& name) {

@@ -25,11 +25,17 @@ std::string file_trace(const std::string& path) {
     return fmt::format("{} {} {}.{}", status.st_ino, status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec);
 }
 
+std::string results_trace(const std::string& path) {
+    return file_trace(path) + ';' + file_trace(path + "-wal");
+}
+
 namespace {
 
 [[noreturn]] void refuse_file(const std::string& path, int reason) {
     throw FileError(path, fmt::format("it cannot be written ({})", std::strerror(reason)),
-                    "look at the permissions of the folder");
+                    reason == ENOSPC || reason == EDQUOT || reason == EFBIG || reason == EIO
+                        ? "make room on the disk, and save again"
+                        : "look at the permissions of the folder");
 }
 
 /// Writes to a descriptor and closes it. @return 0, or the number of the error
@@ -74,6 +80,11 @@ StudyFile::StudyFile(std::string path, std::string text) : path_(std::move(path)
     if (!error)
         path_ = canonical.string();
     seen_ = file_trace(path_);
+}
+
+bool StudyFile::is_there() const {
+    std::error_code error;
+    return exists() && std::filesystem::is_regular_file(path_, error);
 }
 
 bool StudyFile::look() {

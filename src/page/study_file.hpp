@@ -8,8 +8,11 @@ namespace graze {
 /// A text that is another one after a file has been changed or replaced; empty: it is not there.
 std::string file_trace(const std::string& path);
 
-/// The text of a study in a file that somebody edits, perhaps with other programs too. It is the only file but results
-/// that the page's server writes.
+/// The same of a result file: also after the journal with its latest changes has been written to.
+std::string results_trace(const std::string& path);
+
+/// The text of a study, or of the opened model, in a file that somebody edits, perhaps with other programs too. These
+/// are the only files but results that the page's server writes.
 class StudyFile {
 public:
     /// Without a file: it has none yet.
@@ -18,6 +21,8 @@ public:
     StudyFile(std::string path, std::string text);
 
     bool exists() const { return !path_.empty(); }
+    /// Whether the file is there now, as a file: another program may have removed or replaced it.
+    bool is_there() const;
     const std::string& path() const { return path_; }
     /// The text of the file when it was last read or written.
     const std::string& text() const { return text_; }

@@ -61,6 +61,14 @@ std::shared_ptr<const StoredBeginning> beginning_of(Study study) {
     return std::make_shared<StoredBeginning>(std::move(beginning));
 }
 
+/// The model of all runs; empty: they have several.
+std::string only_model_of(const Study& study) {
+    std::set<std::string> named;
+    for (const StudyRun& run : study.runs)
+        named.insert(run.model.name);
+    return named.size() == 1 ? *named.begin() : "";
+}
+
 std::vector<InputError> errors_in(const std::function<void()>& work) {
     try {
         work();
@@ -114,26 +122,31 @@ void StudySession::begin_results() {
     results_path_ = subject_.path;
     if (!named_folder_)
         folder_ = std::filesystem::absolute(results_path_).parent_path().string();
-    const ResultFile file(results_path_, ResultFile::Access::read);
-    Study stored = stored_study(file);
-    std::set<std::string> named;
-    for (const StudyRun& run : stored.runs)
-        named.insert(run.model.name);
-    go_on_from(std::move(stored), named.size() == 1 ? *named.begin() : "");
+    Study stored = stored_study(ResultFile(results_path_, ResultFile::Access::read));
+    const std::string model = only_model_of(stored);
+    go_on_from(std::move(stored), model);
+    first_text_ = text_;
+}
+
+std::string StudySession::text_after(const Study& stored, const std::string& model) const {
+    std::string text = fmt::format("# Runs that go on from those of {}\nname = {}\n",
+                                   std::filesystem::path(results_path_).filename().string(), toml_value(stored.name));
+    if (!model.empty())
+        text += fmt::format("model = {}\n", toml_value(model));
+    return text;
 }
 
 void StudySession::go_on_from(Study stored, const std::string& model) {
     base_ = beginning_of(std::move(stored));
     const Study& study = base_->study;
     file_name_ = free_study_file(folder_, study.name + "-further");
-    text_ = fmt::format("# Runs that go on from those of {}\nname = {}\n",
-                        std::filesystem::path(results_path_).filename().string(), toml_value(study.name));
-    if (!model.empty())
-        text_ += fmt::format("model = {}\n", toml_value(model));
+    text_ = text_after(study, model);
     study_ = std::make_shared<Study>(study);
 }
 
 void StudySession::begin_model() {
+    if (!subject_.path.empty())
+        model_file_ = StudyFile(subject_.path, subject_.text);
     const Model model = parse_model(subject_.text, subject_.name);
     const std::string stem = std::filesystem::path(subject_.name).stem().string();
     Study study;
@@ -228,7 +241,7 @@ StudyText StudySession::text() const {
     const std::lock_guard lock(mutex_);
     const std::string file = file_.exists() ? file_.path() : file_name_;
     return {text_,          std::filesystem::path(file).filename().string(),
-            revision_,      file_.exists() && file_.text() == text_,
+            revision_,      file_.is_there() && file_.text() == text_,
             file_.exists(), errors_};
 }
 
@@ -328,6 +341,36 @@ StudyText StudySession::keep(const std::string& text, std::size_t revision, cons
     return this->text();
 }
 
+std::optional<ModelText> StudySession::model_text() {
+    if (subject_.kind != PageSubject::Kind::model)
+        return std::nullopt;
+    const std::lock_guard lock(mutex_);
+    if (!model_file_.exists())
+        return ModelText{subject_.text};
+    if (model_file_.look())
+        ++model_revision_;
+    return ModelText{model_file_.text(), std::filesystem::path(model_file_.path()).filename().string(),
+                     model_revision_};
+}
+
+ModelText StudySession::keep_model(const std::string& text, std::size_t revision, bool replace) {
+    const std::lock_guard one_by_one(editing_);
+    const std::optional<ModelText> now = model_text();
+    if (!now || now->file.empty())
+        throw InputError("no file of a model was opened", "download the text, and open its file");
+    if (revision != now->revision && !replace)
+        throw RefusedRequest(409, fmt::format("another program has changed {}", now->file),
+                             "look at its text first, or save over it deliberately");
+    parse_model(text, now->file);
+    {
+        const std::lock_guard lock(mutex_);
+        model_file_.save(text, replace);
+        ++model_revision_;
+    }
+    change_and_read(this->text().text);
+    return *model_text();
+}
+
 std::vector<std::string> StudySession::append(const std::string& addition) {
     const std::lock_guard one_by_one(editing_);
     const InputTraces inputs = present_inputs();
@@ -391,12 +434,16 @@ void StudySession::look_at_results() {
                   [&](const StudyRun& run) { return now.contains(run.name) && !before.contains(run.name); });
     if (run_names(stored) == before)
         return;
+    std::string text = this->text().text;
+    // The file may have been replaced by one of another study: what nobody has changed is made anew.
+    if (!first_text_.empty() && text == first_text_)
+        text = first_text_ = text_after(stored, only_model_of(stored));
     std::shared_ptr<const StoredBeginning> beginning = beginning_of(std::move(stored));
     {
         const std::lock_guard lock(mutex_);
         base_ = std::move(beginning);
     }
-    change_and_read(text().text);
+    change_and_read(text);
 }
 
 } // namespace graze

@@ -27,6 +27,13 @@ struct StudyText {
     std::vector<InputError> errors{};
 };
 
+/// The text of the model that was opened.
+struct ModelText {
+    std::string text;
+    std::string file{};       ///< name of its file; empty: it comes with graze, and cannot be saved
+    std::size_t revision = 1; ///< increases when the text of the file changes
+};
+
 /// How a text is kept.
 struct StudySaving {
     bool save = false;    ///< into its file; otherwise in memory only
@@ -76,6 +83,11 @@ public:
     /// Replaces the text, which may have mistakes. @param revision of the text that it was made from
     /// @throws RefusedRequest when somebody else has changed the text or its file, InputError when it cannot be written
     StudyText keep(const std::string& text, std::size_t revision, const StudySaving& saving);
+    /// The text of the opened model, as its file has it by now; none: no model was opened.
+    std::optional<ModelText> model_text();
+    /// Saves a text in the file of the opened model, and reads the study again. @param revision, replace as for `keep`
+    /// @throws InputErrors, InputError for mistakes: nothing changes then; RefusedRequest as for `keep`
+    ModelText keep_model(const std::string& text, std::size_t revision, bool replace);
     /// Adds runs to the text, and pictures. @return the names of the runs
     /// @throws InputError for mistakes, with lines of the addition, when it has no new run, and when it has anything
     /// else, which could change the runs that there are: nothing changes then
@@ -96,6 +108,7 @@ private:
     void begin_saved_study(const std::string& text);
     /// @param model for all further runs; empty: none
     void go_on_from(Study stored, const std::string& model);
+    std::string text_after(const Study& stored, const std::string& model) const;
     /// Files besides the study's own, by their paths, as they were when they were read (file_trace).
     using InputTraces = std::map<std::string, std::string>;
     void change(std::string text, std::shared_ptr<const Study> study, std::vector<InputError> errors,
@@ -115,7 +128,10 @@ private:
     mutable std::mutex mutex_;                    ///< of all below
     std::shared_ptr<const StoredBeginning> base_; ///< from which the text goes on; null: from nothing
     StudyFile file_;
+    StudyFile model_file_; ///< of the opened model
+    std::size_t model_revision_ = 1;
     std::string text_;
+    std::string first_text_; ///< that was made for opened results; empty: for none
     std::size_t revision_ = 1;
     std::shared_ptr<const Study> study_;
     std::vector<InputError> errors_;

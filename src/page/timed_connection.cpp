@@ -45,8 +45,10 @@ ssize_t TimedConnection::read(char* to, std::size_t size) {
     if (left_ == 0)
         return -1;
     if (next_ == buffered_) {
-        if (!wait_for(POLLIN, read_until_))
+        if (!wait_for(POLLIN, read_until_)) {
+            is_late_ = true;
             return -1;
+        }
         const ssize_t count = ::recv(socket_, buffer_.data(), buffer_.size(), 0);
         if (count <= 0)
             return count;
@@ -55,6 +57,10 @@ ssize_t TimedConnection::read(char* to, std::size_t size) {
     }
     const std::size_t count = std::min({size, buffered_ - next_, left_});
     std::memcpy(to, buffer_.data() + next_, count);
+    for (std::size_t i = 0; is_header_ && i < count; ++i) {
+        line_ = to[i] == '\n' ? 0 : line_ + 1;
+        longest_line_ = std::max(longest_line_, line_);
+    }
     next_ += count;
     left_ -= count;
     return static_cast<ssize_t>(count);

@@ -23,9 +23,16 @@ public:
     TimedConnection(int socket, const ConnectionLimits& limits);
 
     /// To be called between header and body of a request: the body has a limit of its own.
-    void expect_body() { left_ = limits_.body + buffered_ - next_; }
+    void expect_body() {
+        left_ = limits_.body + buffered_ - next_;
+        is_header_ = false;
+    }
     /// Whether more was sent than may be read, and nobody has been told so.
     bool is_overrun() const { return left_ == 0 && !has_written_; }
+    /// Whether the request was not there in time.
+    bool is_late() const { return is_late_; }
+    /// Length of the longest line of the header that was read.
+    std::size_t longest_line() const { return longest_line_; }
 
     bool is_readable() const override;
     /// Whether the client is still there.
@@ -52,7 +59,8 @@ private:
     std::size_t left_;              ///< bytes that may still be read
     std::array<char, 4096> buffer_; ///< read ahead, since lines are read byte by byte
     std::size_t next_ = 0, buffered_ = 0;
-    bool has_written_ = false;
+    bool has_written_ = false, is_late_ = false, is_header_ = true;
+    std::size_t line_ = 0, longest_line_ = 0; ///< characters of the line of the header that is read, and most of one
 };
 
 } // namespace graze

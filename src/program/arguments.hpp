@@ -69,13 +69,23 @@ struct SimulateArguments {
     bool progress = false, quiet = false;
 };
 
-struct RunArguments {
-    std::string study, folder, keys;
-    std::vector<std::string> only, set;
-    int jobs = 0; ///< 0: as many as there are cores
-    bool progress = false, quiet = false, list = false, show = false, no_pictures = false, steps = false,
-         schema = false;
+/// What commands tell of the runs of a study.
+struct StudyArguments {
+    bool progress = false, quiet = false, no_pictures = false;
     OutputArguments output;
+};
+
+struct RunArguments : StudyArguments {
+    std::string study, folder, keys, part;
+    std::vector<std::string> only, set, sbatch;
+    int jobs = 0;  ///< 0: as many as there are cores
+    int slurm = 0; ///< parts that SLURM computes; 0: they are computed here
+    bool list = false, show = false, steps = false, schema = false, no_wait = false;
+};
+
+struct MergeArguments : StudyArguments {
+    std::vector<std::string> parts;
+    std::string folder;
 };
 
 struct ExportArguments {

@@ -262,8 +262,15 @@ CommandLine::CommandLine() {
                 option->check(not_empty());
 }
 
-std::vector<std::string> with_joined_counts(std::vector<std::string> arguments) {
+std::vector<std::string> with_joined_words(std::vector<std::string> arguments) {
+    const bool is_run = !arguments.empty() && arguments.front() == "run";
     for (std::size_t i = 0; i < arguments.size(); ++i) {
+        if (is_run && arguments[i] == "--" && i + 1 < arguments.size() && arguments[i + 1].starts_with('-')) {
+            arguments.erase(arguments.begin() + static_cast<std::ptrdiff_t>(i));
+            for (; i < arguments.size(); ++i)
+                arguments[i].insert(0, "--sbatch=");
+            return arguments;
+        }
         if (arguments[i] != "--contacts")
             continue;
         if (i + 1 < arguments.size() && is_integer(arguments[i + 1])) {

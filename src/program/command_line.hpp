@@ -126,8 +126,9 @@ void declare_reading(CommandOptions& options, RecordArguments& record);
 /// Values of `graze identify fit --table`.
 std::vector<std::string> fit_table_names();
 
-/// Joins `--contacts 4` into one word, since `--contacts` may also stand alone before the model's name.
-std::vector<std::string> with_joined_counts(std::vector<std::string> arguments);
+/// Joins `--contacts 4` into one word, since `--contacts` may also stand alone before the model's name; and, of
+/// `graze run`, what follows `--`, which is for sbatch, into words `--sbatch=WORD`.
+std::vector<std::string> with_joined_words(std::vector<std::string> arguments);
 
 /// One line about what is wrong with a command line, and what to do.
 std::string explain(const CLI::ParseError& error, const CLI::App& app);

@@ -122,7 +122,7 @@ void declare_simulate(CommandLine& line) {
     options.add("--mode NAME", simulate.mode, "Initial mode (the model's)");
     declare_length(options, simulate);
     options.in("");
-    options.add("--contact-table", simulate.contacts, ""); // see with_joined_counts
+    options.add("--contact-table", simulate.contacts, ""); // see with_joined_words
     declare_tables(options, simulate);
     declare_plot(options, simulate);
     options.table(simulate.output);

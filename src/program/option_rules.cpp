@@ -54,19 +54,27 @@ const std::vector<Excludes>& exclusions() {
         {"run",
          "--list",
          nullptr,
-         {"STUDY", "--set", "--only", "--output", "--jobs", "--steps", "--show"},
+         {"STUDY", "--set", "--only", "--output", "--jobs", "--part", "--slurm", "--steps", "--show"},
          "leave it out"},
         {"run",
          "--keys",
          nullptr,
-         {"STUDY", "--set", "--only", "--output", "--jobs", "--steps", "--show", "--schema", "--list"},
+         {"STUDY", "--set", "--only", "--output", "--jobs", "--part", "--slurm", "--steps", "--show", "--schema",
+          "--list"},
          "leave it out"},
         {"run",
          "--schema",
          nullptr,
-         {"STUDY", "--set", "--only", "--output", "--jobs", "--steps", "--show", "--list", "--format"},
+         {"STUDY", "--set", "--only", "--output", "--jobs", "--part", "--slurm", "--steps", "--show", "--list",
+          "--format"},
          "leave it out"},
-        {"run", "--show", nullptr, {"--set", "--only", "--output", "--jobs", "--steps", "--format"}, "leave it out"},
+        {"run",
+         "--show",
+         nullptr,
+         {"--set", "--only", "--output", "--jobs", "--part", "--slurm", "--steps", "--format"},
+         "leave it out"},
+        {"run", "--slurm", nullptr, {"--part"}, "leave one of them out"},
+        {"run", "--slurm", nullptr, {"--jobs"}, "tell SLURM instead, as by -- --cpus-per-task=4"},
         {"run", "--quiet", nullptr, {"--format"}, "leave one of them out"},
         {"design",
          "--list",
@@ -107,6 +115,7 @@ const std::vector<Excludes>& exclusions() {
 
 const std::vector<Needs>& needs() {
     static const std::vector<Needs> all{
+        {"run", {"--no-wait", "--sbatch"}, {"--slurm"}},
         {"layout", {"--mask"}, {"--picture", "--output"}},
         {"layout", {"--folder", "--seed"}, {"--yield"}},
         {"layout", {"--jobs"}, {"--yield", "--from-design"}},
@@ -167,7 +176,8 @@ std::string option_value(const CLI::App& command, const std::string& option) {
 
 [[noreturn]] void refuse_option(const std::string& option, const std::string& other, const std::string& why,
                                 const std::string& remedy) {
-    throw InputError(Place{}, fmt::format("{} has no effect {} {}", option, why, other), remedy);
+    const std::string shown = option == "--sbatch" ? "what follows --" : option;
+    throw InputError(Place{}, fmt::format("{} has no effect {} {}", shown, why, other), remedy);
 }
 
 /// Refuses the file name `-`, which means standard output to other programs and would give a file of that name.

@@ -24,7 +24,7 @@ namespace {
 int dispatch(std::span<const std::string> words, const Console& console) {
     CommandLine line;
     CLI::App& app = line.app;
-    std::vector<std::string> reversed = with_joined_counts({words.begin(), words.end()});
+    std::vector<std::string> reversed = with_joined_words({words.begin(), words.end()});
     std::reverse(reversed.begin(), reversed.end()); // CLI11 expects the last argument first
     try {
         app.parse(reversed);

@@ -19,11 +19,26 @@ constexpr const char* run_examples = R"(Examples:
   graze run my-study.toml --output results --jobs 8
   graze run my-study.toml --only chain --steps
   graze run my-study.toml --set k=50              another value; results go to the folder my-study-k=50
+  graze run my-study.toml --part 3/64             a share of it, for example on one of 64 machines
+  graze run my-study.toml --slurm 64 -- --time=2:00:00 --cpus-per-task=4
+                                                  64 shares as jobs of SLURM
   graze run results                               continue the study in results/results.sqlite
   graze run results --output again                compute it again in another folder
   graze run mems-switch --show > my-switch.toml
   graze run --keys sweep                          the keys of a run of kind sweep
   graze run --schema > study.schema.json          for an editor that completes TOML)";
+
+constexpr const char* merge_text =
+    R"(Put the parts of a study together, which several processes or machines have computed.
+Each part is a file that graze run STUDY --part K/N has written. The results are those that one process would have made, to
+the last bit, however many parts there are and however often they were interrupted or repeated. What is missing is said;
+the parts that are there are kept, and graze run FOLDER computes the rest.)";
+
+constexpr const char* merge_examples = R"(Examples:
+  graze run my-study.toml --output results --part 1/2     on one machine
+  graze run my-study.toml --output results --part 2/2     on another, which writes to the same folder or to its own
+  graze merge results
+  graze merge results/parts/*.sqlite --output together)";
 
 constexpr const char* view_text = R"(Look at results in a browser, and go on from there.
 Prints the address of a page that only this machine can open, and serves it until Ctrl-C. It shows diagrams, the orbit of a
@@ -73,6 +88,14 @@ constexpr const char* plot_examples = R"(Examples:
   graze plot results --run chain --kind portrait --point GR1 --output grazing.png
   graze plot results --output results.html)";
 
+/// What is told of the runs.
+void declare_reports(CommandOptions& options, StudyArguments& study) {
+    options.add("--no-pictures", study.no_pictures, "Compute only; write no pictures and tables");
+    options.progress(study.progress);
+    options.add("--quiet", study.quiet, "Do not list the runs at the end");
+    options.format(study.output);
+}
+
 void declare_run(CommandLine& line) {
     auto [options, run] = line.command("run", run_text, run_examples, run_command);
     options.add("[STUDY]", run.study, "Name of a shipped study, a study file, or results to continue");
@@ -91,11 +114,24 @@ void declare_run(CommandLine& line) {
         one_of(kinds));
     options.add("--schema", run.schema,
                 "Print a JSON Schema of study files, with which editors complete and check them");
+    options.add(
+        "--part K/N", run.part,
+        "Compute only this part of the study, of N, into a file of its own in FOLDER/parts; graze merge puts the "
+        "parts together");
+    options.add("--slurm N", run.slurm,
+                "Let SLURM compute the study in N parts, wait, and put them together; what follows -- is for sbatch",
+                whole_number(1, 100'000));
+    options.add("--no-wait", run.no_wait, "With --slurm: return as soon as the jobs are submitted");
     options.add("--steps", run.steps, "Print a line for each orbit of a branch as it is found");
-    options.add("--no-pictures", run.no_pictures, "Compute only; write no pictures and tables");
-    options.progress(run.progress);
-    options.add("--quiet", run.quiet, "Do not list the runs at the end");
-    options.format(run.output);
+    declare_reports(options, run);
+    options.add("--sbatch TEXT", run.sbatch, "")->group(""); // what follows --: see with_joined_words
+}
+
+void declare_merge(CommandLine& line) {
+    auto [options, merge] = line.command("merge", merge_text, merge_examples, merge_command);
+    options.add("PARTS", merge.parts, "Folder of a study whose parts have been computed, or files of parts");
+    options.add("--output FOLDER", merge.folder, "Folder of results and pictures (the one that is named)");
+    declare_reports(options, merge);
 }
 
 void declare_view(CommandLine& line) {
@@ -181,6 +217,7 @@ void declare_plot_results(CommandLine& line) {
 
 void declare_study_commands(CommandLine& line) {
     declare_run(line);
+    declare_merge(line);
     declare_view(line);
     declare_info(line);
     declare_export(line);

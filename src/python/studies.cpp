@@ -68,7 +68,7 @@ py::list carried_out(const Study& study, ResultFile& file, int threads, const st
                     now.parameter = record.point.parameter;
                 });
             };
-            reports = run_study(study, file, options, points_by(parts));
+            reports = run_study(study, file, options, {.points = points_by(parts)});
         },
         telling(told, [&] { return told_object(note.now()); }));
     py::list list;

@@ -229,38 +229,61 @@ Statement::Statement(sqlite3* database, const std::string& path, const std::stri
     }
 }
 
+void Statement::require_bound(int code) const {
+    if (code == SQLITE_RANGE)
+        throw InputError(Place{path_, 0, 0}, "more values are given than the query has places for",
+                         "give one for each of ?1, ?2, ...");
+    if (code != SQLITE_OK)
+        throw_database_error(code, sqlite3_errmsg(sqlite3_db_handle(statement_.get())), path_);
+}
+
+void Statement::require_room_for(std::string_view text) const {
+    const int most = sqlite3_limit(sqlite3_db_handle(statement_.get()), SQLITE_LIMIT_LENGTH, -1);
+    if (text.size() <= static_cast<std::size_t>(most))
+        return;
+    constexpr double megabyte = 1e6;
+    throw InputError(Place{path_, 0, 0},
+                     fmt::format("a text of {:.0f} MB, such as that of a whole study, does not fit into a result file, "
+                                 "which takes {:.0f} MB",
+                                 static_cast<double>(text.size()) / megabyte, most / megabyte),
+                     "vary fewer values, or divide the study");
+}
+
 Statement& Statement::bind(int position, double value) {
     if (!std::isfinite(value))
         return bind_null(position);
-    sqlite3_bind_double(statement_.get(), position, value);
+    require_bound(sqlite3_bind_double(statement_.get(), position, value));
     return *this;
 }
 
 Statement& Statement::bind_extended(int position, double value) {
     if (std::isnan(value))
         return bind_null(position);
-    sqlite3_bind_double(statement_.get(), position, value);
+    require_bound(sqlite3_bind_double(statement_.get(), position, value));
     return *this;
 }
 
 Statement& Statement::bind(int position, std::int64_t value) {
-    sqlite3_bind_int64(statement_.get(), position, value);
+    require_bound(sqlite3_bind_int64(statement_.get(), position, value));
     return *this;
 }
 
 Statement& Statement::bind(int position, std::string_view text) {
-    sqlite3_bind_text(statement_.get(), position, text.data(), static_cast<int>(text.size()), SQLITE_STATIC);
+    require_room_for(text);
+    require_bound(
+        sqlite3_bind_text(statement_.get(), position, text.data(), static_cast<int>(text.size()), SQLITE_STATIC));
     return *this;
 }
 
 Statement& Statement::bind_copy(int position, std::string_view text) {
-    sqlite3_bind_text(statement_.get(), position, text.empty() ? "" : text.data(), static_cast<int>(text.size()),
-                      SQLITE_TRANSIENT);
+    require_room_for(text);
+    require_bound(sqlite3_bind_text(statement_.get(), position, text.empty() ? "" : text.data(),
+                                    static_cast<int>(text.size()), SQLITE_TRANSIENT));
     return *this;
 }
 
 Statement& Statement::bind_null(int position) {
-    sqlite3_bind_null(statement_.get(), position);
+    require_bound(sqlite3_bind_null(statement_.get(), position));
     return *this;
 }
 

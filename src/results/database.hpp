@@ -73,6 +73,9 @@ public:
     std::string name(int column) const { return sqlite3_column_name(statement_.get(), column); }
 
 private:
+    void require_bound(int code) const;
+    /// @throws InputError for a text that SQLite would leave out
+    void require_room_for(std::string_view text) const;
     struct Finish {
         void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
     };

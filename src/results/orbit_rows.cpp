@@ -82,7 +82,8 @@ public:
         read_segments(record);
         OrbitSolution& solution = record.point.solution;
         if (record.point.segment > 0 && record.point.segment >= solution.orbit.segments())
-            throw_contradiction(path_, fmt::format("orbit {} of run '{}'", record.number, run_->name));
+            throw_contradiction(path_, fmt::format("orbit {} of run '{}'", static_cast<std::int64_t>(record.number),
+                                                   run_->name)); // a changed file may have negative numbers
         if (solution.orbit.segments() == 0)
             solution.outcome = OrbitOutcome::not_converged, solution.orbit.symmetry.reset();
         const Model& model = *context_.model;

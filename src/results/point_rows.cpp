@@ -185,12 +185,25 @@ std::optional<PointRecord> ResultFile::point(const std::string& name, std::size_
     return reader.next();
 }
 
-void ResultFile::each_point(const std::string& name, const std::function<void(const PointRecord& point)>& use) const {
+std::function<std::optional<PointRecord>()> ResultFile::points(const std::string& name) const {
     const auto run = find_run(name);
     if (!run || run->is_branch())
-        return;
-    PointReader reader(state_->database, path(), *run, " ORDER BY number");
-    while (const auto point = reader.next())
+        return [] { return std::optional<PointRecord>(); };
+    struct Reading {
+        Reading(std::shared_ptr<State> of_file, RunRecord of_run, const std::string& path)
+            : state(std::move(of_file)), run(std::move(of_run)),
+              reader(state->database, path, run, " ORDER BY number") {}
+        std::shared_ptr<State> state; // outlives the statements
+        RunRecord run;
+        PointReader reader;
+    };
+    const auto reading = std::make_shared<Reading>(state_, *run, path());
+    return [reading] { return reading->reader.next(); };
+}
+
+void ResultFile::each_point(const std::string& name, const std::function<void(const PointRecord& point)>& use) const {
+    const auto next = points(name);
+    while (const auto point = next())
         use(*point);
 }
 

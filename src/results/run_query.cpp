@@ -1,11 +1,14 @@
 #include "results/run_query.hpp"
 
+#include "base/letter_case.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/printable.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <vector>
 
 namespace graze {
 
@@ -35,24 +38,83 @@ std::size_t end_of_quoted(const std::string& text, std::size_t begin) {
     return end;
 }
 
-/// Refuses what would end the place of an expression within a statement, so that no other rows than those of the run
-/// are read.
-void require_one_expression(const std::string& text) {
-    int open = 0;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const std::string_view two = std::string_view(text).substr(i, 2);
-        if (std::string_view("'\"`[").find(text[i]) != std::string_view::npos)
-            i = end_of_quoted(text, i);
-        else if (text[i] == ';' || text[i] == '\0' || two == "--" || two == "/*")
-            refuse_expression(text, "is more than one expression");
-        else if (text[i] == '(')
-            ++open;
-        else if (text[i] == ')' && --open < 0)
-            break;
+/// Reads one expression of SQL that has a value for each row of a run, and refuses others: those that would end the
+/// place of an expression within a statement, so that other rows were read, and those that make one row of all.
+class RowExpression {
+public:
+    explicit RowExpression(const std::string& text) : text_(text) {}
+
+    void require() {
+        if (text_.find_first_not_of(" \t\r\n") == std::string::npos)
+            refuse_expression(text_, "is no expression");
+        for (std::size_t i = 0; i < text_.size(); ++i)
+            i = read(i);
+        if (!open_.empty())
+            refuse_expression(text_, "has brackets that do not match");
     }
-    if (open != 0)
-        refuse_expression(text, "has brackets that do not match");
-}
+
+private:
+    struct Bracket {
+        std::string function; ///< in front of it, if any
+        bool selects = false; ///< it has a query of its own, which may make one row of many
+        bool has_comma = false;
+    };
+
+    static bool is_letter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '$'; }
+
+    /// @return the last place of what begins here
+    std::size_t read(std::size_t i) {
+        const char c = text_[i];
+        const std::string_view two = std::string_view(text_).substr(i, 2);
+        if (std::string_view("'\"`[").find(c) != std::string_view::npos)
+            i = end_of_quoted(text_, i);
+        else if (c == ';' || c == '\0' || two == "--" || two == "/*" || (c == ',' && open_.empty()))
+            refuse_expression(text_, "is more than one expression");
+        else if (std::string_view("?:@$").find(c) != std::string_view::npos)
+            refuse_expression(text_, "has a value that is not given");
+        else if (is_letter(c))
+            return read_word(i);
+        else if (c == '(')
+            open_.push_back({word_, !open_.empty() && open_.back().selects});
+        else if (c == ')')
+            close(i);
+        else if (c == ',')
+            open_.back().has_comma = true;
+        if (std::isspace(static_cast<unsigned char>(c)) == 0)
+            word_.clear();
+        return i;
+    }
+
+    std::size_t read_word(std::size_t begin) {
+        std::size_t end = begin;
+        while (end < text_.size() && is_letter(text_[end]))
+            ++end;
+        word_ = in_small_letters(text_.substr(begin, end - begin));
+        if (!open_.empty() && (word_ == "select" || word_ == "values"))
+            open_.back().selects = true;
+        return end - 1;
+    }
+
+    void close(std::size_t i) {
+        if (open_.empty())
+            refuse_expression(text_, "has brackets that do not match");
+        const Bracket one = std::move(open_.back());
+        open_.pop_back();
+        constexpr std::string_view aggregates[] = {
+            "avg", "count", "group_concat", "json_group_array", "json_group_object", "sum", "string_agg", "total"};
+        const bool is_extreme = one.function == "min" || one.function == "max";
+        const bool makes_one =
+            std::ranges::find(aggregates, one.function) != std::end(aggregates) || (is_extreme && !one.has_comma);
+        const std::size_t next = std::min(text_.find_first_not_of(" \t\r\n", i + 1), text_.size());
+        const bool of_window = in_small_letters(text_.substr(next, 4)) == "over"; // of which each row has a value
+        if (makes_one && !one.selects && !of_window)
+            refuse_expression(text_, "makes one value of all points");
+    }
+
+    const std::string& text_;
+    std::vector<Bracket> open_;
+    std::string word_; ///< just before this place, but for blanks
+};
 
 } // namespace
 
@@ -82,7 +144,7 @@ std::string RunQuery::quantity(const std::string& name) const {
                            text_literal(run_->name));
     if (has_column(tables_.point_columns, name))
         return "p." + quoted_name(name);
-    require_one_expression(name);
+    RowExpression(name).require();
     return fmt::format("({})", name);
 }
 

@@ -25,10 +25,22 @@ bool has_left(const std::string& kind, const std::string& label, const std::stri
     return !has_label(label, Label::chaotic) && !has_label(label, Label::transient);
 }
 
+/// Motions that settle are noticed after a number of returns that varies by a few: a mean lifetime below that is not
+/// that of a transient, but of the way to a regular attractor. When a motion escapes or ends is known to the return.
+constexpr double shortest_resolved_lifetime = 5;
+
 struct Group {
     std::vector<Stay> stays;
     std::vector<std::size_t> chaotic;
+    bool settles = false; ///< some motion has left by settling
+
+    bool resolves(const EscapeLaw& law) const { return !settles || law.rate * shortest_resolved_lifetime < 1; }
 };
+
+bool has_settled(const std::string& label) {
+    return has_label(label, Label::periodic) || has_label(label, Label::equilibrium) ||
+           has_label(label, Label::quasi_periodic);
+}
 
 } // namespace
 
@@ -52,12 +64,13 @@ std::vector<EscapeRate> escape_rates(const StoredRun& run) {
             at.push_back(rows.number(4 + p));
         Group& group = groups[at];
         group.stays.push_back({static_cast<std::size_t>(cycles), has_left(record.kind, label, rows.text(2))});
+        group.settles = group.settles || has_settled(label);
         if (has_label(label, Label::chaotic))
             group.chaotic.push_back(static_cast<std::size_t>(rows.integer(0)));
     }
     std::vector<EscapeRate> rates;
     for (auto& [at, group] : groups)
-        if (const auto law = escape_law(group.stays))
+        if (const auto law = escape_law(group.stays); law && group.resolves(*law))
             rates.push_back({at, *law, std::move(group.chaotic)});
     return rates;
 }

@@ -2,9 +2,9 @@
 
 #include "base/letter_case.hpp"
 #include "graze/base/input_error.hpp"
-#include "graze/study/run_times.hpp"
 #include "graze/study/stored_study.hpp"
 #include "results/schema.hpp"
+#include "study/copied_run.hpp"
 #include "study/run_record.hpp"
 #include "study/run_schedule.hpp"
 
@@ -58,25 +58,6 @@ std::string same_run(const ResultFile& from, const RunRecord& run, const ResultF
     return "";
 }
 
-void copy_results(const ResultFile& from, const RunRecord& run, ResultFile& to, const RunRecord& copy) {
-    to.begin_run(copy);
-    to.name_points(copy.name, run.point_names);
-    if (run.is_branch())
-        for (const OrbitRecord& orbit : from.orbits(run.name, false))
-            to.add_orbit(copy.name, orbit);
-    else
-        from.each_point(run.name, [&](const PointRecord& point) { to.add_point(copy.name, point); });
-    if (const EstimateRecords found = from.estimates(run.name); !found.numbers.empty())
-        to.set_estimates(copy.name, found);
-    to.flush();
-    if (run.status == RunStatus::complete)
-        to.complete_run(copy.name);
-    if (run.status == RunStatus::failed)
-        to.fail_run(copy.name, run.failure);
-    if (const auto times = times_of(from, run.name))
-        note_times(to, copy.name, *times);
-}
-
 } // namespace
 
 std::map<std::string, std::string> copy_runs(const ResultFile& from, ResultFile& to,
@@ -102,7 +83,7 @@ std::map<std::string, std::string> copy_runs(const ResultFile& from, ResultFile&
         RunRecord copy = same;
         copy.name = name = distinct_name(record->name, taken);
         fingerprints[name] = copy.fingerprint;
-        copy_results(from, *record, to, copy);
+        copy_run(from, *record, to, copy);
     }
     return copies;
 }

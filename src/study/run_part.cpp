@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
 
 namespace graze {
@@ -82,16 +83,6 @@ void describe_result(Bytes& bytes, Result& result) {
 void require_consistent(const RunPart& part) {
     if (part.chains.first > part.chains.last || !(part.known.empty() || part.known.size() == part.chains.size()))
         ByteReader::fail();
-}
-
-/// The numbers of the points that a part consists of, in the order of the chains.
-std::vector<std::size_t> point_numbers(const RunPart& part, std::size_t chain_length) {
-    std::vector<std::size_t> points;
-    for (std::size_t chain = part.chains.first; chain < part.chains.last; ++chain)
-        for (std::size_t index = part.known.empty() ? 0 : part.known[chain - part.chains.first].done;
-             index < chain_length; ++index)
-            points.push_back(chain * chain_length + index);
-    return points;
 }
 
 } // namespace
@@ -172,7 +163,9 @@ RunPart part_of(std::string_view bytes) {
     return part;
 }
 
-std::string computed_points(const PartedRun& run, const RunPart& part, const std::function<bool()>& interrupted) {
+std::string computed_points(const PartedRun& run, const RunPart& part, const std::function<bool()>& interrupted,
+                            const PieceSink& sink, std::chrono::milliseconds between) {
+    using Clock = std::chrono::steady_clock;
     require_consistent(part);
     for (const ChainProgress& chain : part.known)
         if (chain.done > 0 && chain.done < run.chain_length() &&
@@ -181,18 +174,30 @@ std::string computed_points(const PartedRun& run, const RunPart& part, const std
     ExecutionOptions options;
     options.interrupted = interrupted;
     ByteWriter bytes(points_mark);
+    Clock::time_point begun = Clock::now();
     const bool complete = run.compute(part.chains, part.known, options, [&](std::size_t point, PointResult& result) {
         bytes(point);
         describe_result(bytes, result);
+        if (!sink || Clock::now() < begun + between)
+            return;
+        sink(bytes.take());
+        bytes = ByteWriter(points_mark);
+        begun = Clock::now();
     });
     return complete ? bytes.take() : std::string();
 }
 
-void read_points(const PartedRun& run, const RunPart& part, std::string_view bytes, const PointSink& sink) {
-    require_consistent(part);
-    if (part.chains.last > run.chains())
+PointsReader::PointsReader(const PartedRun& run, RunPart part) : run_(&run), part_(std::move(part)) {
+    require_consistent(part_);
+    if (part_.chains.last > run.chains())
         ByteReader::fail();
-    ByteReader reader(bytes, points_mark);
+    for (const ChainProgress& chain : part_.known)
+        next_.push_back(std::min(chain.done, run.chain_length()));
+    next_.resize(part_.chains.size());
+}
+
+void PointsReader::read(std::string_view piece, bool is_last, const PointSink& sink) {
+    ByteReader reader(piece, points_mark);
     std::vector<std::pair<std::size_t, PointResult>> points;
     while (!reader.is_at_end()) {
         auto& [number, result] = points.emplace_back();
@@ -201,11 +206,23 @@ void read_points(const PartedRun& run, const RunPart& part, std::string_view byt
     }
     // Chains alternate where they were computed side by side, in another way on each machine.
     std::ranges::sort(points, {}, &std::pair<std::size_t, PointResult>::first);
-    if (!std::ranges::equal(points, point_numbers(part, run.chain_length()), {},
-                            &std::pair<std::size_t, PointResult>::first))
+    const std::size_t length = run_->chain_length();
+    std::vector<std::size_t> next = next_;
+    for (const auto& [number, result] : points) {
+        const std::size_t chain = number / length;
+        if (chain < part_.chains.first || chain >= part_.chains.last ||
+            number % length != next[chain - part_.chains.first]++)
+            ByteReader::fail();
+    }
+    if (is_last && std::ranges::any_of(next, [&](std::size_t one) { return one != length; }))
         ByteReader::fail();
+    next_ = std::move(next);
     for (auto& [number, result] : points)
         sink(number, result);
+}
+
+void read_points(const PartedRun& run, const RunPart& part, std::string_view bytes, const PointSink& sink) {
+    PointsReader(run, part).read(bytes, true, sink);
 }
 
 } // namespace graze

@@ -77,6 +77,8 @@ std::string escapes_of(const StoredRun& run) {
 } // namespace
 
 RunSummary summary_of(const RunReport& report, const ResultFile& file) {
+    if (report.outcome == RunOutcome::partial && !file.find_run(report.name))
+        return {}; // it has not begun, since it needs all points of others
     const StoredRun run(file, report.name, {});
     RunSummary result{label_counts(run), report.problem, {}, ""};
     if (!report.problem.empty())

@@ -3,17 +3,19 @@
 #include "base/enumerator_name.hpp"
 #include "base/turns.hpp"
 #include "graze/results/name_advice.hpp"
+#include "graze/study/elsewhere.hpp"
 #include "graze/study/escape_rates.hpp"
-#include "graze/study/run_part.hpp"
 #include "graze/study/run_times.hpp"
 #include "graze/study/stored_study.hpp"
 #include "study/branch_run.hpp"
+#include "study/copied_run.hpp"
 #include "study/measured_run.hpp"
 #include "study/plan_of_run.hpp"
 #include "study/run_record.hpp"
 #include "study/run_schedule.hpp"
 #include "study/shared_file.hpp"
 #include "study/start_point.hpp"
+#include "study/stored_progress.hpp"
 
 #include <fmt/format.h>
 
@@ -26,79 +28,17 @@
 namespace graze {
 
 std::string_view name_of(RunOutcome outcome) {
-    constexpr std::string_view names[] = {"complete", "interrupted", "failed", "skipped"};
+    constexpr std::string_view names[] = {"complete", "interrupted", "failed", "skipped", "partial"};
     return enumerator_name(names, outcome, "failed");
 }
 
 namespace {
 
-/// The points of each chain that the file has.
-std::vector<ChainProgress> progress_of(const ResultFile& file, const PartedRun& parted, std::size_t& done) {
-    const StudyRun& run = parted.run();
-    const std::size_t length = parted.chain_length();
-    std::vector<ChainProgress> progress(parted.chains());
-    if (length == 1) { // nothing is carried on
-        for (const std::size_t point : file.point_numbers(run.name))
-            if (point < progress.size()) {
-                progress[point].done = 1;
-                ++done;
-            }
-        return progress;
-    }
-    for (const PointRecord& point : file.last_points(run.name, length)) {
-        const std::size_t chain = point.number / length;
-        if (chain >= progress.size() || point.result.mode >= run.model.modes.size())
-            continue; // the point does not belong to this run: its chain is computed anew
-        progress[chain] = {point.number % length + 1, can_be_carried_on(point.result), point.result.state,
-                           point.result.mode};
-        done += progress[chain].done;
-    }
-    return progress;
-}
-
-/// True when a stored run has the columns of the record. Equal fingerprints imply it unless the file was changed.
-bool has_columns_of(const RunRecord& stored, const RunRecord& record) {
-    const auto same = [](const std::vector<ResultColumn>& a, const std::vector<ResultColumn>& b) {
-        return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                          [](const ResultColumn& one, const ResultColumn& other) { return one.name == other.name; });
-    };
-    return stored.kind == record.kind && stored.points == record.points && stored.modes == record.modes &&
-           stored.samplings == record.samplings && stored.directions == record.directions &&
-           same(stored.coordinates, record.coordinates) && same(stored.states, record.states) &&
-           same(stored.values, record.values);
-}
-
-/// True when a run ended without finding all orbits: it would fail again.
-bool lacks_orbits(const RunRecord& run, const ResultFile& file) {
-    if (run.status != RunStatus::failed || !run.is_branch())
-        return false;
-    const std::vector<OrbitRecord> orbits = file.orbits(run.name, true);
-    return std::any_of(orbits.begin(), orbits.end(), [](const OrbitRecord& record) {
-        return record.point.solution.outcome != OrbitOutcome::converged;
-    });
-}
-
-/// True when the file has the complete run as it is asked for now. Otherwise begins it, or reopens it if it can be
-/// continued.
-bool is_done(const RunRecord& record, ResultFile& file) {
-    const auto stored = file.find_run(record.name);
-    const bool same = stored && stored->fingerprint == record.fingerprint && has_columns_of(*stored, record);
-    if (same && stored->model != record.model) // which differ in their drawing only
-        file.replace_model(record.name, record.model);
-    if (same && (stored->status == RunStatus::complete || lacks_orbits(*stored, file)))
-        return true;
-    if (!same || record.is_branch())
-        file.begin_run(record);
-    else if (stored->status == RunStatus::failed)
-        file.reopen_run(record.name);
-    return false;
-}
-
 /// Carries out the runs of a study, independent ones side by side. Its members are read and changed only by the thread
 /// that holds the file.
 class Runner {
 public:
-    Runner(const Study& study, ResultFile& file, const RunnerOptions& options, const PointsElsewhere& elsewhere)
+    Runner(const Study& study, ResultFile& file, const RunnerOptions& options, const Elsewhere& elsewhere)
         : study_(&study), path_(file.path()), file_(file), options_(options), elsewhere_(elsewhere) {
         const auto interrupted = turns_.asking(options.interrupted);
         options_.interrupted = [this, interrupted] { return broken_off_ || (interrupted && interrupted()); };
@@ -108,7 +48,7 @@ public:
         for (const StudyRun& run : study.runs)
             if (wanted.contains(run.name)) {
                 runs_.push_back(&run);
-                (run.is_branch() ? progress_.branches_left : progress_.study_points) += points_of(run);
+                (run.is_branch() ? progress_.branches_left : progress_.study_points) += expected_points(run);
             }
     }
 
@@ -116,7 +56,7 @@ public:
         std::vector<ScheduledRun> schedule;
         for (const StudyRun* run : runs_) {
             ScheduledRun& one = schedule.emplace_back();
-            one.threads = chains_of(*run);
+            one.threads = elsewhere_.only_waits ? 1 : chains_of(*run);
             for (std::size_t r = 0; r + 1 < schedule.size(); ++r)
                 for (const auto& need : run->needs())
                     if (runs_[r]->name == need.first)
@@ -148,6 +88,11 @@ private:
         std::optional<RunTimes> times; ///< none: it computes nothing
     };
 
+    /// Number of its points that this process will have at its end.
+    std::size_t expected_points(const StudyRun& run) const {
+        return elsewhere_.expected ? elsewhere_.expected(run) : points_of(run);
+    }
+
     void do_one(std::size_t index, int threads) {
         const StudyRun& run = *runs_[index];
         const auto begun = Clock::now();
@@ -170,7 +115,7 @@ private:
         if (run.is_branch())
             --progress_.branches_left;
         else
-            progress_.study_done += points_of(run) - work.counted;
+            progress_.study_done += std::max(expected_points(run), work.counted) - work.counted;
         if (!work.report.problem.empty())
             file.fail_run(run.name, work.report.problem + "; " + work.report.remedy);
         if (!work.times)
@@ -187,7 +132,10 @@ private:
         work.report.kind = name_of(run.kind);
         const bool skipped = file_.with([&](ResultFile& file) {
             for (const auto& need : run.needs())
-                if (failed_.contains(need.first)) {
+                if (partial_.contains(need.first)) {
+                    leave(run, work.report);
+                    return true;
+                } else if (failed_.contains(need.first)) {
                     fail(run, work.report, file, RunOutcome::skipped,
                          run.start && run.start->run == need.first
                              ? fmt::format("run '{}', from which it starts, failed", need.first)
@@ -240,6 +188,12 @@ private:
         report.points = file.point_count(run.name);
     }
 
+    /// Leaves a run, or the rest of it, to others.
+    void leave(const StudyRun& run, RunReport& report) {
+        report.outcome = RunOutcome::partial;
+        partial_.insert(run.name);
+    }
+
     /// True when the file has the run as it is asked for; otherwise notes that it begins.
     bool is_there_or_begins(const StudyRun& run, std::size_t points, Work& work) {
         return file_.with([&](ResultFile& file) {
@@ -262,7 +216,7 @@ private:
         const StudyRun run = file_.with([&](const ResultFile& file) { return measured_run(wanted, file); });
         work.report.points = points_of(run);
         const bool done = is_there_or_begins(run, work.report.points, work);
-        if (done)
+        if (done || is_found_or_left(run, work))
             return;
         const bool complete = run_measured(run, file_, options_.interrupted, [&](bool computed) {
             work.report.computed += computed ? 1 : 0;
@@ -274,8 +228,39 @@ private:
         work.report.outcome = complete ? RunOutcome::complete : RunOutcome::interrupted;
     }
 
+    /// Takes results from elsewhere. @return false when they have to be computed here
+    bool is_found_or_left(const StudyRun& run, Work& work) {
+        if (!elsewhere_.results)
+            return false;
+        const std::string fingerprint = file_.with([&](ResultFile&) { return fingerprints_.at(run.name); });
+        const auto found = elsewhere_.results({run, fingerprint, options_.interrupted});
+        const auto record = found ? found->find_run(run.name) : std::nullopt;
+        const bool is_interrupted = !record && options_.interrupted();
+        if (record && run.is_branch() && options_.orbit)
+            for (const OrbitRecord& orbit : found->orbits(run.name, false))
+                options_.orbit(run.name, orbit);
+        file_.with([&](ResultFile& file) {
+            if (!record && is_interrupted)
+                work.report.outcome = RunOutcome::interrupted;
+            else if (!record)
+                leave(run, work.report);
+            if (!record)
+                return;
+            copy_rows(*found, *record, file, run.name);
+            work.report.points = work.report.computed = file.point_count(run.name);
+            if (record->status == RunStatus::failed && !lacks_orbits(*record, *found))
+                throw failure_of(*record);
+            file.complete_run(run.name);
+            if (run.is_branch())
+                note_missing_orbits(run, work.report, file);
+        });
+        return true;
+    }
+
     void do_branch(const StudyRun& run, Work& work) {
         const bool done = is_there_or_begins(run, 0, work);
+        if (!done && is_found_or_left(run, work))
+            return;
         const bool complete = done || run_branch(*study_, run, file_, options_, work.report);
         file_.with([&](ResultFile& file) {
             if (done)
@@ -324,9 +309,11 @@ private:
 
     void compute_points(const StudyRun& run, const PointRecord* start, Work& work) {
         const PartedRun parted(run, start);
+        std::string fingerprint;
         const auto known = file_.with([&](const ResultFile& file) {
             const auto progress = progress_of(file, parted, work.counted);
             progress_.study_done += work.counted;
+            fingerprint = fingerprints_.at(run.name);
             return progress;
         });
         const PointSink keep = [&](std::size_t point, PointResult& result) {
@@ -341,16 +328,20 @@ private:
         ExecutionOptions execution;
         execution.jobs = work.threads;
         execution.interrupted = options_.interrupted;
-        const bool complete = elsewhere_ ? elsewhere_(parted, known, options_.interrupted, keep)
-                                         : parted.compute({0, parted.chains()}, known, execution, keep);
+        const bool ended =
+            elsewhere_.points
+                ? elsewhere_.points({parted, fingerprint, known, work.threads, options_.interrupted}, keep)
+                : parted.compute({0, parted.chains()}, known, execution, keep);
+        work.report.outcome = ended ? RunOutcome::complete : RunOutcome::interrupted;
         file_.with([&](ResultFile& file) {
             file.flush();
-            if (!complete)
+            if (!ended)
                 return;
+            if (elsewhere_.points && file.point_count(run.name) < work.report.points)
+                return leave(run, work.report);
             label_transients(file, run.name);
             file.complete_run(run.name);
         });
-        work.report.outcome = complete ? RunOutcome::complete : RunOutcome::interrupted;
     }
 
     void tell(const StudyRun& run, Work& work) {
@@ -370,9 +361,9 @@ private:
     SharedFile file_;
     Turns turns_;
     RunnerOptions options_;
-    PointsElsewhere elsewhere_;         ///< none: points are computed here
+    Elsewhere elsewhere_;
     std::vector<const StudyRun*> runs_; ///< the runs to be carried out, in the order of the study
-    std::set<std::string> failed_;
+    std::set<std::string> failed_, partial_;
     std::map<std::string, std::string> fingerprints_;
     StudyProgress progress_;
     std::vector<std::optional<RunReport>> reports_; ///< of runs that have begun
@@ -390,7 +381,7 @@ void name_points(const Study& study, ResultFile& file) {
 } // namespace
 
 std::vector<RunReport> run_study(const Study& study, ResultFile& file, const RunnerOptions& options,
-                                 const PointsElsewhere& elsewhere) {
+                                 const Elsewhere& elsewhere) {
     Runner runner(study, file, options, elsewhere);
     if (study.file != file.path()) // otherwise the study was read from this file
         store_study(study, file);

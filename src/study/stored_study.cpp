@@ -177,7 +177,10 @@ std::optional<ParameterValues> other_set(const Study& study, const ResultFile& f
     return sorted == asked ? std::nullopt : stored;
 }
 
-Study stored_study(const ResultFile& file) {
+namespace {
+
+/// @param only_asked whether runs that the file has besides those that were asked for are left out
+Study study_in(const ResultFile& file, bool only_asked) {
     const Place place{file.path(), 0, 0};
     Study study;
     study.file = file.path();
@@ -195,8 +198,9 @@ Study stored_study(const ResultFile& file) {
     const auto is_in = [](const std::vector<StudyRun>& some, const std::string& name) {
         return std::any_of(some.begin(), some.end(), [&](const StudyRun& run) { return run.name == name; });
     };
-    for (const RunRecord& record : file.runs())
-        runs.push_back(stored_run(record));
+    if (!only_asked)
+        for (const RunRecord& record : file.runs())
+            runs.push_back(stored_run(record));
     for (const PlannedRun& run : all)
         if (!is_in(runs, run.asked.name))
             runs.push_back(planned_run(run, place));
@@ -214,6 +218,16 @@ Study stored_study(const ResultFile& file) {
     for (StudyTable& table : study.tables)
         check(table, place);
     return study;
+}
+
+} // namespace
+
+Study stored_study(const ResultFile& file) {
+    return study_in(file, false);
+}
+
+Study asked_study(const ResultFile& file) {
+    return study_in(file, true);
 }
 
 } // namespace graze

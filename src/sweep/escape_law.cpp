@@ -12,6 +12,9 @@ constexpr std::size_t fewest_leaving = 10; ///< fewest motions that leave
 constexpr double in_19_of_20 = 1.96;       ///< 95 % of a normal distribution, in standard errors
 /// 90 % quantile of Kolmogorov's distribution: a constant rate is rejected by mistake in one of ten cases.
 constexpr double contradicts = 1.22;
+/// Mean lifetimes that may pass, after the first motion has left, before the law holds. Later than that it would be the
+/// law of less than a hundredth of the motions: of the slowest ones to settle, not of a transient.
+constexpr double most_lifetimes_before = 5;
 constexpr std::size_t possible_starts =
     40; ///< possible beginnings of the law, in equal shares of the motions that leave
 
@@ -89,9 +92,13 @@ std::optional<EscapeLaw> escape_law(std::span<const Stay> stays) {
         const Remainder remainder(sorted, from);
         if (remainder.left() < fewest_leaving)
             return std::nullopt;
+        if (!remainder.leave_steadily())
+            continue;
+        const EscapeLaw law = remainder.law();
         // If all leave at once there is no law: this is only the time in which escape is detected.
-        if (remainder.leave_steadily() && remainder.law().rate < 20)
-            return remainder.law();
+        if (law.rate < 20 &&
+            law.rate * (static_cast<double>(from) - static_cast<double>(times.front())) < most_lifetimes_before)
+            return law;
     }
     return std::nullopt;
 }

@@ -91,7 +91,8 @@ export class Bench {
     page.on("pageerror", (error) => this.complaints.push(`${error.message}`));
     page.on("console", (message) => {
       const text = message.text();
-      if (message.type() === "error" && !allowed.some((word) => text.includes(word))) this.complaints.push(text);
+      if (message.type() === "error" && !allowed.some((word) => text.includes(word)))
+        this.complaints.push(`${text} ${message.location().url}`);
     });
     await page.goto(address);
     return page;

@@ -29,6 +29,10 @@ export const cases = [
       await page.getByRole("tab", { name: "Study" }).click();
       await page.getByLabel("Text of the study").getByText(`[runs.${name}]`).waitFor();
       await bench.shoot(page, "followed");
+      page.on("dialog", (dialog) => dialog.accept());
+      await page.getByRole("button", { name: `Remove ${name}`, exact: true }).click();
+      await page.getByRole("button", { name: `Remove ${name}`, exact: true }).waitFor({ state: "detached" });
+      await page.getByLabel("Text of the study").getByText(`[runs.${name}]`).waitFor({ state: "detached" });
       await bench.stop(server);
     },
   ],
@@ -37,7 +41,7 @@ export const cases = [
     async (bench) => {
       const page = await bench.openResults({ width: 1920, height: 1080 });
       await placeOfSpecial(page, "impacting", "SN2");
-      await page.getByRole("button", { name: "Move parameters" }).click();
+      await page.getByRole("button", { name: "Simulate with sliders" }).click();
       const slider = page.getByRole("slider", { name: "V", exact: true });
       await slider.waitFor();
       const canvas = ".simulation .portrait-place canvas";
@@ -94,7 +98,7 @@ export const cases = [
       await page.getByLabel("Address of the new server").fill(second.address);
       await page.getByRole("button", { name: "Go on there" }).click();
       await page.getByRole("heading", { name: "Touches and folds by the distance of the stop" }).waitFor();
-      assert.ok(await page.locator(".banner").isHidden());
+      assert.ok(await page.locator(".banner").first().isHidden());
       assert.ok(!page.url().includes("token") && !page.url().includes("view="));
       await bench.stop(second);
     },

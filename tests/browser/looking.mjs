@@ -42,6 +42,16 @@ async function panned(page, box) {
   return (1000 * frames.length) / frames.reduce((sum, one) => sum + one, 0);
 }
 
+/** Where something is once what arrives later, such as notes above it, moves it no more. */
+async function placeAtRest(page, locator) {
+  for (let before = await locator.boundingBox(); ; ) {
+    await page.waitForTimeout(200);
+    const now = await locator.boundingBox();
+    if (JSON.stringify(now) === JSON.stringify(before)) return now;
+    before = now;
+  }
+}
+
 export const cases = [
   [
     "opens, shows a diagram, and hides the token",
@@ -59,7 +69,7 @@ export const cases = [
     "zooms into a box, with the wheel, and back",
     async (bench) => {
       const page = await bench.openResults();
-      const box = await page.locator(".u-over").first().boundingBox();
+      const box = await placeAtRest(page, page.locator(".u-over").first());
       const whole = await viewOf(page);
       await page.mouse.move(box.x + 0.4 * box.width, box.y + 0.3 * box.height);
       await page.mouse.down();
@@ -133,6 +143,9 @@ export const cases = [
       await page.getByRole("heading", { name: /no_impact: point \d+/ }).waitFor();
       const outline = await page.evaluate(() => getComputedStyle(document.activeElement).outlineStyle);
       assert.equal(outline, "solid");
+      await page.keyboard.press("ArrowRight");
+      await page.keyboard.press("Enter");
+      await until(page, () => document.activeElement.closest(".actions") !== null);
     },
   ],
   [
@@ -163,11 +176,20 @@ export const cases = [
   [
     "shows quantities that are chosen, and logarithmic axes",
     async (bench) => {
-      const page = await bench.openResults();
+      const page = await bench.openResults({ allowed: ["400"] });
       await page.getByRole("button", { name: "Choose…" }).click();
       await page.locator('.chooser-form label:has(> span:text-is("y")) select').selectOption("period");
       await page.getByRole("button", { name: "Leave out max_v" }).click();
       await until(page, () => document.querySelectorAll(".figure .diagram").length === 1);
+      const own = page.getByPlaceholder(/expression for y/);
+      const use = page.getByRole("button", { name: "Use", exact: true });
+      await own.fill("period*nothing");
+      await use.click();
+      await page.getByText(/The picture stays as it was: .*nothing/).waitFor();
+      assert.equal(await page.locator(".figure .diagram canvas").count(), 1);
+      await own.fill("");
+      await use.click();
+      await page.getByText(/The picture stays as it was/).waitFor({ state: "detached" });
       await page.getByLabel("log x").check();
       await page.waitForTimeout(100);
       assert.ok((await coloured(page)) > 100);

@@ -299,7 +299,10 @@ export const cases = [
         ],
       );
       assert.equal(panel.x.range, null); // the branch may go farther
-      assert.match(panel.notes.join(), /max_x/);
+      assert.equal(panel.y.label, "x (dots), max_x (lines)");
+      assert.match(panel.notes.join(), /greatest x along the orbit/);
+      const typed = partsOf(workspace, { runs: ["branch", "sweep"], y: ["x*q"] });
+      assert.deepEqual([typed.others.y, typed.branches.y], [["x*q"], ["x*q"]]); // the server says what is wrong with it
       assert.equal(drawnOver(figure([dots], "x"), figure([line], "period"), "branch", belongs), null);
     },
   ],
@@ -340,6 +343,25 @@ export const cases = [
       assert.match(near.note, /no orbit of point 7/);
       assert.equal(await source.figure({ name: "named" }), "named");
       await assert.rejects(source.figure({ runs: ["c"] }), /no such picture/);
+    },
+  ],
+  [
+    "a run is taken out of the text of a study, and no other",
+    async (bench) => {
+      const { withoutRun } = await load(bench, "study_text");
+      const before = 'name = "s"\n\n[runs.one]\nat = [\n  [0, 1],\n  [2, 3]\n]\n[runs.one.set] # its own\nk = 1\n';
+      const after = '[runs.one-more]\nkind = "orbit"\n[pictures.one]\nrun = "one-more"\n';
+      assert.equal(withoutRun(before + after, "one"), 'name = "s"\n\n' + after);
+      assert.equal(withoutRun(before + after, "none"), before + after);
+    },
+  ],
+  [
+    "two names of one quantity are no portrait",
+    async (bench) => {
+      const { areProportional } = await load(bench, "motion_rows");
+      assert.ok(areProportional([1, 2, null, 4], [-2, -4, 3, -8]));
+      assert.ok(!areProportional([1, 2, 3, 4], [1, 2, 3, 5]));
+      assert.ok(!areProportional([1, 2, 3], [1, 1, 1]));
     },
   ],
 ];

@@ -169,7 +169,6 @@ inline constexpr std::string_view accepted[] = {
     "results_begin_run_settings_no_json",
     // The same as in SQL.
     "query_select__1",
-    "query_values_too_many",
 };
 
 /// Calls in another order than documented, which must be refused as such.

@@ -1,5 +1,6 @@
 // Result files that somebody has changed: whatever they say, the answer is JSON or an InputError.
 
+#include "base/message_of.hpp"
 #include "graze/picture/result_picture.hpp"
 #include "graze/results/query_interruption.hpp"
 #include "page/figure_json.hpp"
@@ -83,6 +84,13 @@ protected:
 
 TEST_F(HostileResults, AnswerWhenNobodyHasChangedThem) {
     EXPECT_GT(answers(), 25);
+}
+
+TEST_F(HostileResults, AreNamedByTheNumbersThatTheyHave) {
+    tamper("UPDATE branch_chain SET number = number - 1000, event_segment = 99");
+    const std::string message =
+        testing::message_of([&] { special_points_json(ResultFile(path_, ResultFile::Access::read), "chain"); });
+    EXPECT_NE(message.find("orbit -"), std::string::npos) << message;
 }
 
 class HostileResultsSlow : public HostileResults {};

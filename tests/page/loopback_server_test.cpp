@@ -117,9 +117,42 @@ TEST(LoopbackServer, RefusesBodiesThatAreTooLongOrDisguised) {
     EXPECT_EQ(status(json + "Content-Length: 10\r\nContent-Encoding: gzip\r\n"), 411);
     EXPECT_EQ(status("Content-Type: text/plain\r\nContent-Length: 2\r\n"), 415);
     EXPECT_EQ(status("Content-Type: multipart/form-data; boundary=x\r\nContent-Length: 2\r\n"), 415);
+    EXPECT_EQ(status("Content-Type: application/jsonx\r\nContent-Length: 2\r\n"), 415);
+    EXPECT_EQ(status("Content-Type: application/json; charset=utf-16\r\nContent-Length: 2\r\n"), 415);
+    EXPECT_EQ(status(json + json + "Content-Length: 2\r\n"), 415);
     EXPECT_EQ(status("Content-Length: 2\r\n", "GET"), 400);
     EXPECT_EQ(server.answered, 0);
     EXPECT_TRUE(server.lives());
+}
+
+TEST(LoopbackServer, TakesTheTypeOfJsonInAnyForm) {
+    const EchoServer server;
+    for (const std::string type : {"application/json", "Application/JSON", "application/json; charset=UTF-8",
+                                   "application/json ;charset=\"utf-8\"", "application/json;"})
+        EXPECT_EQ(status_of(raw_answer(server.port(), "POST /known HTTP/1.1\r\nHost: a\r\nContent-Type: " + type +
+                                                          "\r\nContent-Length: 2\r\n\r\n{}")),
+                  200)
+            << type;
+}
+
+TEST(LoopbackServer, RefusesAnAddressWithTwoValuesOfOneName) {
+    const EchoServer server;
+    EXPECT_EQ(status_of(raw_answer(server.port(), "GET /known?a=1&b=1 HTTP/1.1\r\nHost: a\r\n\r\n")), 200);
+    const std::string refused = raw_answer(server.port(), "GET /known?a=1&b=1&a=1 HTTP/1.1\r\nHost: a\r\n\r\n");
+    EXPECT_EQ(status_of(refused), 400);
+    EXPECT_NE(refused.find("the address has 'a' twice"), std::string::npos) << refused;
+    EXPECT_EQ(status_of(raw_answer(server.port(), "GET /known?a=1&a=2 HTTP/1.1\r\nHost: a\r\n\r\n")), 400);
+    EXPECT_EQ(status_of(raw_answer(server.port(), "GET /known?a=1&%61=2 HTTP/1.1\r\nHost: a\r\n\r\n")), 400);
+}
+
+TEST(LoopbackServer, SaysWhatItDoesNotTake) {
+    const EchoServer server;
+    const auto body = [&](const std::string& text) { return body_of(raw_answer(server.port(), text)); };
+    EXPECT_NE(body("GET /" + std::string(9000, 'x') + " HTTP/1.1\r\n\r\n").find("the address is longer"),
+              std::string::npos);
+    EXPECT_NE(body("GET /known HTTP/1.1\r\nX: " + std::string(9000, 'x') + "\r\n\r\n").find("too long"),
+              std::string::npos);
+    EXPECT_NE(body("GET /known HTTP/1.1\r\nRange: bytes=x\r\n\r\n").find("Range"), std::string::npos);
 }
 
 TEST(LoopbackServer, TakesABodyOfTheGreatestLengthAndAnswersWholeOneThatIsLonger) {
@@ -141,7 +174,7 @@ TEST(LoopbackServer, SurvivesGarbage) {
     EXPECT_EQ(status("GET /known extra HTTP/1.1\r\n\r\n"), 400);
     EXPECT_EQ(status(std::string("\x16\x03\x01\x02\x00\x01\x00\r\n\r\n", 11)), 400); // as of a client that wants TLS
     EXPECT_EQ(status("GET /" + std::string(9000, 'x') + " HTTP/1.1\r\nHost: a\r\n\r\n"), 414);
-    EXPECT_EQ(status("GET /known HTTP/1.1\r\nX: " + std::string(9000, 'x') + "\r\n\r\n"), 400);
+    EXPECT_EQ(status("GET /known HTTP/1.1\r\nX: " + std::string(9000, 'x') + "\r\n\r\n"), 431);
     EXPECT_EQ(status("GET /known HTTP/1.1\r\nRange: bytes=" + std::string(8000, '1') + "-\r\n\r\n"), 416);
     EXPECT_EQ(status("GET /known HTTP/1.1\r\nRange: bytes=0-1,0-1,0-1\r\nHost: a\r\n\r\n"), 200);
     const std::string ranges = raw_answer(server.port(), "GET /known HTTP/1.1\r\nRange: bytes=0-0,1-1,5-2\r\n\r\n");
@@ -152,7 +185,7 @@ TEST(LoopbackServer, SurvivesGarbage) {
     std::string many = "GET /known HTTP/1.1\r\n";
     for (int i = 0; i < 5000; ++i)
         many += "X" + std::to_string(i) + ": y\r\n";
-    EXPECT_EQ(status(many + "\r\n"), 400);
+    EXPECT_EQ(status(many + "\r\n"), 431);
     EXPECT_EQ(status("GET /known HTTP/1.1\r\nHost: a\r\n\r\nGARBAGE that follows\r\n\r\n"), 200);
     EXPECT_TRUE(server.lives());
 }
@@ -172,7 +205,9 @@ TEST(LoopbackServer, WaitsForSlowClientsOnlyForAWhile) {
     EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(5));
     EXPECT_EQ(silent.read_all(), "");
     half.read_all();
-    EXPECT_EQ(status_of(halfway.read_all()), 400);
+    const std::string late = halfway.read_all();
+    EXPECT_EQ(status_of(late), 408);
+    EXPECT_NE(late.find("in time"), std::string::npos) << late;
     EXPECT_EQ(server.answered, 0);
     EXPECT_TRUE(server.lives());
 }
@@ -275,6 +310,81 @@ TEST(LoopbackServer, LetsNoClientThatDoesNotReadStayForever) {
     for (int i = 0; i < 1000 && !ended; ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     EXPECT_TRUE(ended);
+}
+
+TEST(LoopbackServer, KnowsThatAClientHasLeft) {
+    LoopbackServer server(0);
+    std::atomic<int> asked = 0;
+    std::atomic<bool> left = false;
+    server.start([](const HttpRequest&) { return std::nullopt; },
+                 [&](const HttpRequest& request) {
+                     for (int i = 0; i < 2000 && !left; ++i, ++asked) {
+                         left = request.has_left();
+                         std::this_thread::sleep_for(std::chrono::milliseconds(5));
+                     }
+                     return HttpAnswer();
+                 });
+    {
+        RawClient client(server.port());
+        client.send(simple_get);
+        while (asked < 5)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        EXPECT_FALSE(left);
+    }
+    for (int i = 0; i < 1000 && !left; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    EXPECT_TRUE(left);
+}
+
+TEST(LoopbackServer, HoldsSoManyUnreadBytesAndNoMore) {
+    LoopbackLimits limits;
+    limits.answers = 100'000;
+    LoopbackServer server(0, limits);
+    constexpr std::size_t longer_than_what_the_system_holds = std::size_t{30} << 20;
+    std::atomic<int> made = 0;
+    server.start([](const HttpRequest&) { return std::nullopt; },
+                 [&](const HttpRequest& request) {
+                     HttpAnswer answer;
+                     answer.body =
+                         request.path == "/short" ? "short" : std::string(longer_than_what_the_system_holds, 'x');
+                     ++made;
+                     return answer;
+                 });
+    const std::string get_long = "GET /long HTTP/1.1\r\nHost: a\r\n\r\n";
+    {
+        RawClient unread(server.port());
+        unread.send(get_long);
+        while (made == 0)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        const std::string refused = raw_answer(server.port(), get_long);
+        EXPECT_EQ(status_of(refused), 503);
+        EXPECT_NE(refused.find("have not read the answers"), std::string::npos);
+        EXPECT_EQ(body_of(raw_answer(server.port(), "GET /short HTTP/1.1\r\nHost: a\r\n\r\n")), "short");
+        EXPECT_EQ(body_of(unread.read_all()).size(), longer_than_what_the_system_holds);
+    }
+    bool given = false;
+    for (int i = 0; i < 200 && !given; ++i, std::this_thread::sleep_for(std::chrono::milliseconds(5)))
+        given = status_of(raw_answer(server.port(), get_long)) == 200;
+    EXPECT_TRUE(given);
+}
+
+TEST(LoopbackServer, AnswersWhatRunsBeforeItEnds) {
+    LoopbackServer server(0);
+    std::atomic<bool> runs = false;
+    server.start([](const HttpRequest&) { return std::nullopt; },
+                 [&](const HttpRequest&) {
+                     runs = true;
+                     std::this_thread::sleep_for(std::chrono::milliseconds(200));
+                     return HttpAnswer();
+                 });
+    RawClient client(server.port());
+    client.send("GET /known HTTP/1.1\r\nHost: a\r\nAuthorization: b\r\n\r\n");
+    while (!runs)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    std::thread stopping([&] { server.stop(); });
+    EXPECT_EQ(status_of(client.read_all()), 200);
+    stopping.join();
 }
 
 TEST(LoopbackServer, StopsWhileClientsWait) {

@@ -42,16 +42,88 @@ protected:
         PageOptions options;
         options.opened = folder_ / "short.toml";
         options.folder = folder_ / "out";
+        options.work = work_;
         server_ = std::make_unique<PageServer>(options);
         server_->start();
         client_ = std::make_unique<PageClient>(*server_);
     }
     const PageClient& page() const { return *client_; }
 
+    /// A picture of the study's run whose query does not end.
+    static nlohmann::json endless_picture() {
+        return {{"picture",
+                 {{"runs", {"one"}},
+                  {"kind", "scatter"},
+                  {"x", "time"},
+                  {"y", {"(WITH RECURSIVE c(n) AS (SELECT 1 UNION ALL SELECT n + 1 FROM c) SELECT max(n) FROM c)"}}}}};
+    }
+    void compute() const {
+        EventClient events(page());
+        ASSERT_EQ(page().post("/api/jobs", {{"runs", {"one"}}}).status, 200);
+        EXPECT_FALSE(events.wait_for_job("complete").is_null());
+    }
+    /// Sends a request without waiting for its answer.
+    void begin(const testing::RawClient& client, const std::string& path, const nlohmann::json& body) const {
+        const std::string text = body.dump();
+        client.send(page().head("POST", path) + "Content-Type: application/json\r\nContent-Length: " +
+                    std::to_string(text.size()) + "\r\n\r\n" + text);
+    }
+
+    std::chrono::milliseconds work_ = std::chrono::seconds(30);
     testing::TemporaryFolder folder_;
     std::unique_ptr<PageServer> server_;
     std::unique_ptr<PageClient> client_;
 };
+
+class HastyServer : public ServedStudy {
+protected:
+    HastyServer() { work_ = std::chrono::milliseconds(500); }
+};
+
+TEST_F(HastyServer, SaysThatAQueryTakesTooLong) {
+    compute();
+    const Answered late = page().post("/api/figure", endless_picture());
+    EXPECT_EQ(late.status, 400);
+    EXPECT_EQ(late.problem(), "the answer takes more than 0.5 seconds of work");
+}
+
+std::size_t threads_of_this_process() {
+    const std::filesystem::directory_iterator tasks("/proc/self/task");
+    return static_cast<std::size_t>(std::distance(begin(tasks), end(tasks)));
+}
+
+TEST_F(ServedStudy, EndsTheQueryOfAClientThatLeaves) {
+    compute();
+    const std::size_t before = threads_of_this_process();
+    const auto wait_for = [](const auto& holds) {
+        for (int i = 0; i < 2000 && !holds(); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        return holds();
+    };
+    {
+        const testing::RawClient client(server_->port());
+        begin(client, "/api/figure", endless_picture());
+        ASSERT_TRUE(wait_for([&] { return threads_of_this_process() > before; }));
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        EXPECT_GT(threads_of_this_process(), before);
+    }
+    EXPECT_TRUE(wait_for([&] { return threads_of_this_process() <= before; })) << "the query takes 30 s";
+}
+
+TEST_F(ServedStudy, SaysThatItEndsToThoseWhoWait) {
+    compute();
+    testing::RawClient client(server_->port());
+    begin(client, "/api/figure", endless_picture());
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    server_->stop();
+    const std::string answer = client.read_all();
+    EXPECT_EQ(status_of(answer), 503) << answer;
+    EXPECT_NE(answer.find("the server ends"), std::string::npos) << answer;
+}
+
+TEST_F(ServedStudy, RefusesAPartOfAnAddressThatIsGivenTwice) {
+    EXPECT_EQ(page().get("/api/model?run=one&run=two").problem(), "the address has 'run' twice");
+}
 
 TEST_F(ServedStudy, TellsWhatIsOpened) {
     const Answered session = page().get("/api/session");
@@ -215,6 +287,45 @@ TEST_F(ServedStudy, AddsRunsToTheStudyAndKeepsItsFile) {
     EXPECT_EQ(saved.json["revision"], 2);
     EXPECT_EQ(page().put("/api/study", {{"text", "x"}, {"revision", 1}}).status, 409);
     EXPECT_EQ(page().post("/api/jobs", {{"text", more}}).status, 400) << "the run is there already";
+}
+
+TEST_F(ServedStudy, DrawsOneValueOfEachPoint) {
+    compute();
+    const auto refusal = [&](const std::string& y) {
+        return page()
+            .post("/api/figure", {{"picture", {{"runs", {"one"}}, {"kind", "scatter"}, {"x", "time"}, {"y", {y}}}}})
+            .problem();
+    };
+    EXPECT_EQ(refusal("abs(time)"), "");
+    EXPECT_EQ(refusal("max(time, 0)"), "");
+    EXPECT_EQ(refusal("(SELECT max(number) FROM points_one)"), "");
+    EXPECT_EQ(refusal("sum(time) OVER ()"), "");
+    for (const std::string aggregate :
+         {"sum(time)", "count(*)", "1 + MAX (time)", "total(time) FILTER (WHERE time > 0)"})
+        EXPECT_EQ(refusal(aggregate), "'" + aggregate + "' makes one value of all points");
+    for (const std::string parameter : {"?1", ":v", "@v", "$v"})
+        EXPECT_EQ(refusal(parameter), "'" + parameter + "' has a value that is not given");
+    EXPECT_EQ(refusal(" "), "' ' is no expression");
+    EXPECT_EQ(refusal("time, number"), "'time, number' is more than one expression");
+}
+
+TEST_F(ServedStudy, RefusesKeysOutsideOfTables) {
+    const nlohmann::json job{{"text", "\n# a comment\nruns.two = { kind = \"simulate\", time = 1 }\n"}};
+    EXPECT_EQ(page().post("/api/jobs", job).problem(), "the text begins with a key outside of tables");
+}
+
+TEST_F(ServedStudy, TellsThatItsFileIsGone) {
+    EXPECT_EQ(page().get("/api/study").json["saved"], true);
+    std::filesystem::rename(folder_ / "short.toml", folder_ / "kept");
+    EXPECT_EQ(page().get("/api/study").json["saved"], false);
+    std::filesystem::rename(folder_ / "kept", folder_ / "short.toml");
+    EXPECT_EQ(page().get("/api/study").json["saved"], true);
+}
+
+TEST_F(ServedStudy, SaysWhereTheKindOfAProposedRunComesFrom) {
+    const Answered refused =
+        page().post("/api/propose", {{"run", "one"}, {"action", "sweep"}, {"options", {{"kind", "basin"}}}});
+    EXPECT_EQ(refused.problem(), "'sweep' makes a run of kind sweep: the action decides the kind");
 }
 
 TEST_F(ServedStudy, StopsAJobAndGoesOn) {

@@ -44,6 +44,7 @@ TEST(PageSubject, SaysWhatIsMissing) {
     refused(folder / "no.toml", "no.toml");
     refused("bouncing-bal", "bouncing-ball");
     refused(folder.write("wrong.toml", "[[["), "wrong.toml");
+    refused(folder.write("picture.png", std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16)), "this is not a text file");
 }
 
 } // namespace

@@ -367,7 +367,7 @@ TEST(ProposedRun, RefusesWhatIsNotPossible) {
     EXPECT_NE(
         refused("free", "GR1", {.action = "switch", .options = {{"steps", "1\n[runs.evil]"}}}).find("several lines"),
         std::string::npos);
-    for (const char* key : {"a b", "nonsense", "kind", "name", "cycles_of_another_kind", ""})
+    for (const char* key : {"a b", "nonsense", "name", "cycles_of_another_kind", ""})
         EXPECT_NE(refused("free", "GR1", {.action = "switch", .options = {{key, "1"}}}).find("is no key"),
                   std::string::npos)
             << key;

@@ -45,6 +45,16 @@ TEST(RequestJson, RefusesWhatIsNoJsonObject) {
         EXPECT_THROW(request_json(text), InputError) << text;
 }
 
+TEST(RequestJson, SaysWhatIsWrongWithoutNamesOfItsReader) {
+    try {
+        request_json("{\"a\": }");
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_NE(error.problem().find("parse error at line 1, column 7"), std::string::npos) << error.problem();
+        EXPECT_EQ(error.problem().find("exception"), std::string::npos) << error.problem();
+    }
+}
+
 TEST(RequestJson, RefusesDeepNesting) {
     const auto nested = [](int depth) { return "{\"a\":" + std::string(depth, '[') + std::string(depth, ']') + "}"; };
     EXPECT_NO_THROW(request_json(nested(30)));

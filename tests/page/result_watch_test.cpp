@@ -66,6 +66,33 @@ TEST(ResultWatch, TellsWhatOthersWrite) {
     EXPECT_TRUE(heard.hears("event: study\ndata: {\"revision\":2}"));
 }
 
+TEST(ResultWatch, TellsThatOpenedResultsAreGoneOrCannotBeRead) {
+    const testing::TemporaryFolder folder;
+    const std::string path = folder.write("a.toml", "name = \"a\"\nmodel = \"bouncing-ball\"\n"
+                                                    "[runs.one]\nkind = \"simulate\"\ntime = 0.1\n");
+    {
+        const StudySession computing(page_subject(path), folder / "out");
+        compute_runs(computing, {"one"}, {[] { return false; }, [](const auto&...) {}}, 1);
+    }
+    StudySession session(page_subject(folder / "out"));
+    const std::string results = session.results_path(), whole = testing::contents(results);
+    EventStream events;
+    Heard heard(events);
+    const ResultWatch watch(session, events, std::chrono::milliseconds(5));
+    EXPECT_TRUE(heard.hears("\"status\":\"complete\""));
+    std::filesystem::rename(results, folder / "kept");
+    EXPECT_TRUE(heard.hears("event: runs\ndata: {\"runs\":[]}"));
+    folder.write("out/results.sqlite", std::string(9000, 'g'));
+    EXPECT_TRUE(heard.hears("this is no result file of graze"));
+    std::filesystem::rename(folder / "kept", results);
+    EXPECT_TRUE(heard.hears("\"status\":\"complete\""));
+    testing::change(results, "DROP TABLE points_one");
+    EXPECT_TRUE(heard.hears("\"error\":{"));
+    folder.write("other.sqlite", whole);
+    std::filesystem::rename(folder / "other.sqlite", results);
+    EXPECT_TRUE(heard.hears("\"status\":\"complete\"")) << "nothing is different from what was told first";
+}
+
 TEST(ResultWatch, EndsAtOnceWhereAFileHasAnEndlessQuery) {
     const testing::TemporaryFolder folder;
     const std::string path = folder.write("a.toml", "name = \"a\"\nmodel = \"bouncing-ball\"\n"

@@ -103,6 +103,24 @@ TEST_F(HostileRuns, AreReadAgainOnlyAfterAChange) {
     EXPECT_NE(runs_json(file_, nullptr, &memory)[0]["failure"], ""); // an error may go away
 }
 
+TEST_F(HostileRuns, AreKeptAsAListWhereAllCouldBeRead) {
+    file_.begin_run(testing::run_of(model_, "motion", "simulate"));
+    file_.flush();
+    const auto study = std::make_shared<const Study>(), other = std::make_shared<const Study>();
+    RunsMemory memory;
+    nlohmann::json list = runs_json(file_, nullptr, &memory);
+    memory.keep_all("1", study, list);
+    EXPECT_EQ(memory.find_all("1", study), list);
+    EXPECT_TRUE(memory.find_all("2", study).is_null());
+    EXPECT_TRUE(memory.find_all("1", other).is_null());
+    testing::change(path_, "UPDATE runs SET model = 'nothing'");
+    RunsMemory with_error;
+    list = runs_json(file_, nullptr, &with_error);
+    ASSERT_NE(list[0]["failure"], "");
+    with_error.keep_all("1", study, list);
+    EXPECT_TRUE(with_error.find_all("1", study).is_null()) << "an error may go away";
+}
+
 TEST_F(HostileRuns, HideNoOtherRunWhenTheirModelCannotBeRead) {
     file_.begin_run(testing::run_of(model_, "good", "simulate"));
     file_.begin_run(testing::run_of(model_, "bad", "simulate"));

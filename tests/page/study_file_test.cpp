@@ -2,6 +2,7 @@
 
 #include "base/temporary_folder.hpp"
 #include "page/error_answer.hpp"
+#include "page/short_files.hpp"
 
 #include <sys/stat.h>
 
@@ -60,6 +61,36 @@ TEST(StudyFile, SavesWhereALinkLeads) {
     file.save("two", false);
     EXPECT_EQ(contents(path), "two");
     EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.toml"));
+}
+
+TEST(StudyFile, KnowsWhetherItIsThere) {
+    const testing::TemporaryFolder folder;
+    const std::string path = folder.write("a.toml", "one");
+    const StudyFile file(path, "one");
+    EXPECT_TRUE(file.is_there());
+    std::filesystem::remove(path);
+    EXPECT_FALSE(file.is_there());
+    ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+    EXPECT_FALSE(file.is_there());
+    EXPECT_FALSE(StudyFile().is_there());
+}
+
+TEST(StudyFile, AsksForRoomWhereThereIsNone) {
+    const testing::TemporaryFolder folder;
+    const std::string path = folder.write("a.toml", "one");
+    StudyFile file(path, "one");
+    std::string remedy;
+    {
+        const testing::ShortFiles limit(8);
+        try {
+            file.save("more than eight letters", false);
+        } catch (const InputError& error) {
+            remedy = error.remedy();
+        }
+    }
+    EXPECT_EQ(remedy, "make room on the disk, and save again");
+    EXPECT_EQ(contents(path), "one");
+    EXPECT_EQ(folder.files(), 1U);
 }
 
 TEST(StudyFile, TakesPlainNewNamesOnly) {

@@ -4,11 +4,8 @@
 #include "base/temporary_folder.hpp"
 #include "graze/base/input_errors.hpp"
 #include "page/error_answer.hpp"
+#include "page/short_files.hpp"
 #include "page/study_job.hpp"
-
-#include <sys/resource.h>
-
-#include <csignal>
 
 #include <gtest/gtest.h>
 
@@ -97,7 +94,7 @@ TEST_F(StudySessionOfFile, AppendsNothingThatCouldChangeOtherRuns) {
     expect_refused("set = { e = 0.3 }\n" + second_run, "'set' is neither a run nor a picture");
     expect_refused("[set]\ne = 0.3\n" + second_run, "'set' is neither");
     expect_refused("[runs.one.set]\ne = 0.3\n" + second_run, "there is a run 'one' already");
-    expect_refused("runs.two = { kind = \"simulate\", time = 0.1 }\n", "unknown key 'runs'");
+    expect_refused("runs.two = { kind = \"simulate\", time = 0.1 }\n", "a key outside of tables");
     EXPECT_EQ(session_.text().text, first_text);
     EXPECT_EQ(session_.append(second_run + "[pictures.p]\nrun = \"two\"\n"), std::vector<std::string>{"two"});
     expect_refused("[runs.three]\nkind = \"simulate\"\ntime = 1\n[pictures.p]\nrun = \"three\"\n",
@@ -114,15 +111,10 @@ TEST_F(StudySessionOfFile, TellsHowManyPointsAreKeptWhenTheDiskIsFull) {
                     "time = 0.2\n");
     std::size_t told = 0;
     const JobControl control{[] { return false; }, [&](const auto&, std::size_t done, const auto&) { told = done; }};
-    rlimit before{};
-    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
-    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit small{400'000, before.rlim_max};
-    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
-    const std::string failure = testing::message_of([&] { compute_runs(session_, {"many"}, control, 1); });
-    ::setrlimit(RLIMIT_FSIZE, &before);
-    std::signal(SIGXFSZ, handler);
-    EXPECT_NE(failure, "");
+    {
+        const testing::ShortFiles limit(400'000);
+        EXPECT_NE(testing::message_of([&] { compute_runs(session_, {"many"}, control, 1); }), "");
+    }
     EXPECT_LT(told, 2000U);
     EXPECT_EQ(told, session_.results()->point_count("many"));
 }
@@ -323,6 +315,24 @@ TEST(StudySession, OfResultsGoesOnFromWhatOthersAdd) {
     EXPECT_NE(session.study()->find_run("new"), nullptr);
     EXPECT_EQ(session.append("[runs.on]\nkind = \"simulate\"\nstart = { run = \"new\" }\ntime = 0.1\n"),
               std::vector<std::string>{"on"});
+}
+
+TEST(StudySession, OfResultsHasTheTextOfThoseThatReplaceThem) {
+    const testing::TemporaryFolder folder;
+    const JobControl control{[] { return false; }, [](const auto&...) {}};
+    const auto compute = [&](const std::string& name, const std::string& text, const std::string& run) {
+        const StudySession study(page_subject(folder.write(name + ".toml", text)), folder / name);
+        compute_runs(study, {run}, control, 1);
+    };
+    compute("first", first_text, "one");
+    compute("other", "name = \"other\"\nmodel = \"impact-oscillator\"\n" + second_run, "two");
+    StudySession session(page_subject(folder / "first"));
+    EXPECT_NE(session.text().text.find("name = \"first\""), std::string::npos);
+    std::filesystem::rename(folder / "other/results.sqlite", folder / "first/results.sqlite");
+    session.look_at_results();
+    EXPECT_EQ(session.title(), "other");
+    EXPECT_NE(session.text().text.find("name = \"other\"\nmodel = \"impact-oscillator\""), std::string::npos);
+    EXPECT_EQ(session.text().revision, 2U);
 }
 
 } // namespace

@@ -99,7 +99,8 @@ std::map<std::string, std::vector<InputInFolder>> inputs_in_folders() {
         {"acquire",
          {{"manifest.txt", experiment, {"--port", "nowhere", "--device", "tcp:127.0.0.1:1"}},
           {"settings.txt", experiment, {"--port", "nowhere", "--device", "tcp:127.0.0.1:1"}}}},
-        {"view", {}}, // it writes a result file only, when it is asked to compute
+        {"merge", {}}, // its inputs are databases, which no output replaces
+        {"view", {}},  // it writes a result file only, when it is asked to compute
         {"help", {}},
     };
 }

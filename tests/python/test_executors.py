@@ -369,19 +369,19 @@ def test_parts_take_about_half_a_second_and_end_together(chains, seconds, worker
     run = _executors._OpenWork(0, b"", ranges)
     free = [0.0] * workers  # when each is free
     going, parts = [], []
-    while run.ranges:
+    while run.has_more():
         free.sort()
         now = free.pop(0)
         for end, part in [one for one in going if one[0] <= now]:
             run.note(part, (part.last - part.first) * seconds)
         going = [one for one in going if one[0] > now]
-        first, last = run.cut(workers)
+        first, last = run.sizes.cut(workers)
         parts.append(_executors._Part(run, first, last, b""))
         free.append(now + (last - first) * seconds)
         going.append((free[-1], parts[-1]))
     for end, part in going:
         run.note(part, (part.last - part.first) * seconds)
-    assert run.open == run.left == 0
+    assert run.open == 0
     assert sorted(one for part in parts for one in range(part.first, part.last)) == list(range(chains))
     sizes = [part.last - part.first for part in parts]
     assert all(size * seconds <= 0.5 * (1 + 1e-9) or size == 1 for size in sizes)

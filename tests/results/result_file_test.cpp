@@ -245,6 +245,14 @@ TEST_F(ResultFileTest, RefusesUnreadableFiles) {
                                           oldest_result_format, result_format)));
 }
 
+TEST_F(ResultFileTest, ATextThatIsTooLongIsRefusedAndWhatIsThereStays) {
+    ResultFile file(path(), ResultFile::Access::write);
+    file.set_note("study", "short");
+    const std::string message = testing::message_of([&] { file.set_note("study", std::string(70'000'000, 'x')); });
+    EXPECT_THAT(message, ::testing::HasSubstr("a text of 70 MB"));
+    EXPECT_EQ(file.note("study"), "short");
+}
+
 TEST_F(ResultFileTest, OneProcessWritesAndOthersRead) {
     ResultFile file(path(), ResultFile::Access::write);
     file.begin_run(run_named("r"));

@@ -1,11 +1,14 @@
 #include "graze/study/run_part.hpp"
 
+#include "graze/study/elsewhere.hpp"
 #include "study_fixture.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <chrono>
 
 namespace graze::run_part_test {
 
@@ -70,9 +73,10 @@ struct Parts {
         }
         return true;
     }
-    PointsElsewhere elsewhere() {
-        return [this](const PartedRun& run, std::span<const ChainProgress> known, const std::function<bool()>&,
-                      const PointSink& sink) { return (*this)(run, known, sink); };
+    Elsewhere elsewhere() {
+        return {.points = [this](const AskedPoints& asked, const PointSink& sink) {
+            return (*this)(asked.run, asked.known, sink);
+        }};
     }
 };
 
@@ -199,11 +203,39 @@ TEST_F(RunPartTest, RefusesWhatIsNoPart) {
     EXPECT_NE(testing::message_of([] { const PartedRun refused("{}"); }), "");
 }
 
+TEST_F(RunPartTest, IsReadPieceByPiece) {
+    ResultFile file(path_, ResultFile::Access::write);
+    Parts parts{1000};
+    run_study(study_, file, {.only = {"sweep"}}, parts.elsewhere());
+    const PartedRun run(parts.texts.front());
+    const RunPart part{{1, 3}, {}};
+    std::vector<std::string> pieces;
+    pieces.push_back(computed_points(
+        run, part, {}, [&](std::string piece) { pieces.push_back(std::move(piece)); }, std::chrono::milliseconds(0)));
+    ASSERT_EQ(pieces.size(), 25U); // each point, and the end
+    std::vector<std::size_t> points;
+    const PointSink note = [&](std::size_t point, PointResult&) { points.push_back(point); };
+    PointsReader reader(run, part);
+    for (const std::string& piece : pieces)
+        reader.read(piece, &piece == &pieces.back(), note);
+    std::ranges::sort(points);
+    ASSERT_EQ(points.size(), 24U);
+    for (std::size_t point = 0; point < points.size(); ++point)
+        EXPECT_EQ(points[point], 12 + point);
+    // A piece is refused when one before it is missing, or when it is the last and others are missing.
+    PointsReader other(run, part);
+    EXPECT_THROW(other.read(pieces[3], false, note), InputError);
+    EXPECT_THROW(other.read(pieces[0], true, note), InputError);
+    other.read(pieces[0], false, note);
+    EXPECT_THROW(other.read(pieces[0], false, note), InputError);
+    EXPECT_EQ(points.size(), 25U);
+}
+
 TEST_F(RunPartTest, AFailureElsewhereFailsTheRun) {
     ResultFile file(path_, ResultFile::Access::write);
-    const auto reports = run_study(study_, file, {.only = {"sweep"}},
-                                   [](const PartedRun&, std::span<const ChainProgress>, const std::function<bool()>&,
-                                      const PointSink&) -> bool { throw InputError("no worker", "start one"); });
+    const auto reports = run_study(
+        study_, file, {.only = {"sweep"}},
+        {.points = [](const AskedPoints&, const PointSink&) -> bool { throw InputError("no worker", "start one"); }});
     EXPECT_EQ(reports.front().outcome, RunOutcome::failed);
     EXPECT_EQ(reports.front().problem, "no worker");
     EXPECT_EQ(file.find_run("sweep")->failure, "no worker; start one");

@@ -72,6 +72,20 @@ TEST(EscapeLaw, ThereIsNoneIfSomeNeverLeaveOrFewLeave) {
     EXPECT_FALSE(escape_law(std::vector<Stay>(50, {2000, false})));
 }
 
+TEST(EscapeLaw, ThereIsNoneOfTheLastMotionsToSettleAlone) {
+    // 400 motions on their way to a regular attractor: the last ones happen to leave at a constant rate.
+    std::vector<Stay> stays;
+    const auto add = [&](std::size_t cycles, std::size_t motions) {
+        stays.insert(stays.end(), motions, {cycles, true});
+    };
+    for (const auto& [cycles, motions] : std::vector<std::pair<std::size_t, std::size_t>>{
+             {7, 1},   {8, 2},   {9, 4},   {10, 24}, {11, 53}, {12, 40}, {13, 9}, {14, 2}, {16, 1},
+             {37, 1},  {42, 1},  {43, 1},  {44, 4},  {45, 2},  {46, 3},  {47, 7}, {48, 9}, {49, 12},
+             {50, 18}, {51, 25}, {52, 38}, {53, 45}, {54, 54}, {55, 38}, {56, 4}, {57, 1}, {58, 1}})
+        add(cycles, motions);
+    EXPECT_FALSE(escape_law(stays));
+}
+
 TEST(EscapeLaw, TentMapIsLeftAtTheRateOfItsClosedForm) {
     // Of a uniform distribution over [0, 1], a share 2/s remains after each application of a tent map of slope s.
     for (const double slope : {2.1, 2.5, 3.0}) {

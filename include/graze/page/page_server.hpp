@@ -19,6 +19,7 @@ struct PageOptions {
     std::string folder{};
     int threads = 1;                                               ///< that compute
     std::chrono::milliseconds patience = std::chrono::seconds(10); ///< with slow clients
+    std::chrono::milliseconds work = std::chrono::seconds(30);     ///< for the queries of one answer
 };
 
 /// Serves a page in which results, a study or a model are looked at, and runs of it are computed: to programs of this

@@ -163,6 +163,9 @@ public:
     std::optional<PointRecord> point(const std::string& run, std::size_t number) const;
     /// Gives all points of a run with their samples to a function, one by one in the order of their numbers.
     void each_point(const std::string& run, const std::function<void(const PointRecord& point)>& use) const;
+    /// The same, but each call of the function that is returned reads the next point; after the last there is none. It
+    /// may outlive this handle of the file.
+    std::function<std::optional<PointRecord>()> points(const std::string& run) const;
     /// The point of a run whose coordinate is nearest to a value, among points of one direction or of all.
     std::optional<PointRecord> nearest_point(const std::string& run, const std::string& coordinate, double value,
                                              std::optional<std::size_t> direction) const;

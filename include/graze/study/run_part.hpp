@@ -3,6 +3,7 @@
 #include "graze/study/item_range.hpp"
 #include "graze/study/runner.hpp"
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -57,22 +58,32 @@ std::string bytes_of(const RunPart& part);
 /// @throws InputError when the bytes are none of `bytes_of`
 RunPart part_of(std::string_view bytes);
 
-/// Computes a part with one thread. @return its points, for read_points; empty: it was interrupted
-std::string computed_points(const PartedRun& run, const RunPart& part, const std::function<bool()>& interrupted);
-/// Gives the points of a part, all bits of them, to `sink`.
-/// @throws InputError, before any point is given, when the bytes are none of `computed_points` of this part
+/// Receives what has been computed of a part, since the last piece.
+using PieceSink = std::function<void(std::string piece)>;
+
+/// Computes a part with one thread.
+/// @param sink receives pieces of the result while it goes on, so that little is lost when it is stopped; without one
+/// there is one piece
+/// @param between time between pieces at least
+/// @return the last piece, for PointsReader; empty: it was interrupted
+std::string computed_points(const PartedRun& run, const RunPart& part, const std::function<bool()>& interrupted,
+                            const PieceSink& sink = {}, std::chrono::milliseconds between = std::chrono::seconds(1));
+
+/// Reads the points of one part, all bits of them, piece by piece.
+class PointsReader {
+public:
+    /// @throws InputError for a part that the run does not have
+    PointsReader(const PartedRun& run, RunPart part);
+    /// Gives the points of the next piece to `sink`.
+    /// @throws InputError, before any point of the piece is given, when the bytes are not the next piece of the part
+    void read(std::string_view piece, bool is_last, const PointSink& sink);
+
+private:
+    const PartedRun* run_;
+    RunPart part_;
+    std::vector<std::size_t> next_; ///< of each chain, the number in it of the point that comes next
+};
+/// The same where there is one piece.
 void read_points(const PartedRun& run, const RunPart& part, std::string_view bytes, const PointSink& sink);
-
-/// Computes the points of a run of motions in some other way than by threads of this process.
-/// @param known what of each chain is there
-/// @param interrupted asked now and then; true: it has to end soon
-/// @param sink receives all points that are not there, in order within each chain; called by one thread at a time
-/// @return false when it was interrupted
-using PointsElsewhere = std::function<bool(const PartedRun& run, std::span<const ChainProgress> known,
-                                           const std::function<bool()>& interrupted, const PointSink& sink)>;
-
-/// The same as run_study, but points of runs of motions are computed by `elsewhere`. The file is the same, too.
-std::vector<RunReport> run_study(const Study& study, ResultFile& file, const RunnerOptions& options,
-                                 const PointsElsewhere& elsewhere);
 
 } // namespace graze

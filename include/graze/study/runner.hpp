@@ -39,9 +39,10 @@ enum class RunOutcome {
     interrupted,
     failed,  ///< for example no orbit was found: `problem` says why, `remedy` what to do
     skipped, ///< a run that it needs failed
+    partial, ///< the rest, or a run that it needs, is left to others; see Elsewhere
 };
 
-/// "complete", "interrupted", "failed" or "skipped".
+/// "complete", "interrupted", "failed", "skipped" or "partial".
 std::string_view name_of(RunOutcome outcome);
 
 /// The outcome of one run.

@@ -32,5 +32,7 @@ std::optional<ParameterValues> other_set(const Study& study, const ResultFile& f
 /// Returns the study of a result file, which needs no other file.
 /// @throws InputError when something cannot be read
 Study stored_study(const ResultFile& file);
+/// The same with only the runs that were asked for when the results were last computed, and in their order.
+Study asked_study(const ResultFile& file);
 
 } // namespace graze

@@ -25,8 +25,8 @@ struct EscapeLaw {
 
 /// Returns the maximum likelihood estimate from motions some of which were observed only for a limited time (censored).
 /// As few as possible of the motions that leave first, before the law holds, are excluded.
-/// @return nothing if fewer than ten motions leave by the law, or if their times contradict a constant rate, for
-/// example because some never leave
+/// @return nothing if fewer than ten motions leave by the law, if their times contradict a constant rate, for
+/// example because some never leave, or if only the last motions to leave obey a law
 std::optional<EscapeLaw> escape_law(std::span<const Stay> stays);
 
 } // namespace graze

@@ -1,0 +1,202 @@
+#include "graze/study/merged_parts.hpp"
+
+#include "base/number_ranges.hpp"
+#include "graze/study/elsewhere.hpp"
+#include "graze/study/study_part.hpp"
+#include "study/stored_progress.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace graze {
+
+namespace {
+
+/// The points of a run in one part, one after the other.
+class PartPoints {
+public:
+    PartPoints(const ResultFile& file, const std::string& run) : next_(file.points(run)) {}
+
+    /// The point of this number, or none. Numbers must not decrease from call to call.
+    std::optional<PointRecord> at(std::size_t number) {
+        while (!ended_ && (!point_ || point_->number < number)) {
+            point_ = next_();
+            ended_ = !point_;
+        }
+        return point_ && point_->number == number ? std::exchange(point_, std::nullopt) : std::nullopt;
+    }
+
+private:
+    std::function<std::optional<PointRecord>()> next_;
+    std::optional<PointRecord> point_;
+    bool ended_ = false;
+};
+
+/// Where the points of each chain are.
+struct ChainSource {
+    std::uint32_t part = 0, points = 0; ///< how many points it has of the chain, from the first one on
+};
+
+std::vector<ChainSource> sources_of(const std::vector<const ResultFile*>& parts, const PartedRun& run) {
+    std::vector<ChainSource> sources(run.chains());
+    const std::size_t length = run.chain_length();
+    for (std::uint32_t part = 0; part < parts.size(); ++part) {
+        std::size_t chain = 0;
+        std::uint32_t points = 0;
+        for (const std::size_t number : parts[part]->point_numbers(run.run().name)) {
+            if (number / length != chain) {
+                chain = number / length;
+                points = 0;
+            }
+            if (chain >= sources.size() || number != chain * length + points)
+                continue; // no point of this run, or one without those before it
+            if (++points > sources[chain].points)
+                sources[chain] = {part, points};
+        }
+    }
+    return sources;
+}
+
+class Merger {
+public:
+    explicit Merger(const std::vector<ResultFile>& parts) : parts_(&parts) {}
+
+    Elsewhere elsewhere() {
+        Elsewhere from;
+        from.points = [this](const AskedPoints& asked, const PointSink& sink) { return give_points(asked, sink); };
+        from.results = [this](const AskedResults& asked) { return results(asked); };
+        return from;
+    }
+
+    /// Files whose runs are not those that were asked for.
+    std::vector<std::string> strangers() const {
+        std::vector<std::string> all;
+        for (const auto& [file, runs] : strangers_)
+            all.push_back(
+                fmt::format("{}: of another study, model or version of graze: {}", file, fmt::join(runs, ", ")));
+        return all;
+    }
+
+private:
+    /// The parts that have something of a run. @throws InputError if it failed in one of them
+    std::vector<const ResultFile*> with_run(const std::string& name, const std::string& fingerprint) {
+        std::vector<const ResultFile*> having;
+        for (const ResultFile& part : *parts_) {
+            const auto run = part.find_run(name);
+            if (!run)
+                continue;
+            if (run->fingerprint == fingerprint)
+                having.push_back(&part);
+            else
+                strangers_[part.path()].insert(name);
+        }
+        return having;
+    }
+
+    bool give_points(const AskedPoints& asked, const PointSink& sink) {
+        const std::string& name = asked.run.run().name;
+        const std::vector<const ResultFile*> parts = with_run(name, asked.fingerprint);
+        const std::vector<ChainSource> sources = sources_of(parts, asked.run);
+        std::vector<PartPoints> points;
+        for (const ResultFile* part : parts)
+            points.emplace_back(*part, name);
+        const std::size_t length = asked.run.chain_length();
+        for (std::size_t chain = 0; chain < sources.size(); ++chain) {
+            const std::size_t done = chain < asked.known.size() ? asked.known[chain].done : 0;
+            for (std::size_t index = done; index < sources[chain].points; ++index) {
+                auto point = points[sources[chain].part].at(chain * length + index);
+                if (!point)
+                    break; // the file has changed meanwhile
+                sink(point->number, point->result);
+                if (asked.interrupted && asked.interrupted())
+                    return false;
+            }
+        }
+        for (const ResultFile* part : parts)
+            if (const auto run = part->find_run(name); run && run->status == RunStatus::failed)
+                throw failure_of(*run);
+        return true;
+    }
+
+    std::optional<ResultFile> results(const AskedResults& asked) {
+        for (const ResultFile* part : with_run(asked.run.name, asked.fingerprint))
+            if (const auto run = part->find_run(asked.run.name); run && run->status != RunStatus::unfinished)
+                return *part;
+        return std::nullopt;
+    }
+
+    const std::vector<ResultFile>* parts_;
+    std::map<std::string, std::set<std::string>> strangers_; ///< names of runs, by files
+};
+
+/// Which parts of each division are not there, or have not ended.
+std::vector<std::string> missing_parts(const std::vector<ResultFile>& parts) {
+    std::map<std::size_t, std::map<std::size_t, bool>> divisions; // whether it has ended, by number
+    for (const ResultFile& file : parts)
+        if (const auto part = part_in(file)) {
+            bool& ended = divisions[part->count][part->number];
+            ended = ended || has_ended(file);
+        }
+    std::vector<std::string> sentences;
+    const auto listed = [](const std::vector<std::size_t>& numbers) {
+        return fmt::format("{}", fmt::join(number_ranges(numbers), ", "));
+    };
+    for (const auto& [count, found] : divisions) {
+        std::vector<std::size_t> absent, unfinished;
+        for (std::size_t number = 1; number <= count; ++number)
+            if (const auto one = found.find(number); one == found.end())
+                absent.push_back(number);
+            else if (!one->second)
+                unfinished.push_back(number);
+        if (!absent.empty())
+            sentences.push_back(fmt::format("not there: part {} of {}", listed(absent), count));
+        if (!unfinished.empty())
+            sentences.push_back(fmt::format("not ended: part {} of {}", listed(unfinished), count));
+    }
+    return sentences;
+}
+
+} // namespace
+
+MergedParts merge_parts(const Study& study, const std::vector<ResultFile>& parts, ResultFile& file,
+                        const RunnerOptions& options) {
+    Merger merger(parts);
+    MergedParts merged;
+    merged.reports = run_study(study, file, options, merger.elsewhere());
+    const std::vector<std::string> later = waiting_runs(study, nullptr), waiting = waiting_runs(study, &file);
+    const auto is_in = [](const std::vector<std::string>& runs, const std::string& name) {
+        return std::ranges::find(runs, name) != runs.end();
+    };
+    const auto is_begun = [&](const std::string& run) {
+        return std::ranges::any_of(parts, [&](const ResultFile& part) { return part.find_run(run).has_value(); });
+    };
+    bool lacks_points = false;
+    for (const RunReport& report : merged.reports) {
+        if (report.outcome != RunOutcome::partial)
+            continue;
+        const std::string& name = report.name;
+        const std::size_t points = points_of(*study.find_run(name));
+        if (is_in(waiting, name))
+            merged.missing.push_back(fmt::format("run '{}' can begin when the runs that it needs are complete", name));
+        else if (is_in(later, name) && !is_begun(name))
+            merged.missing.push_back(
+                fmt::format("run '{}' can begin now that the runs that it needs are complete: compute the parts again, "
+                            "then merge them again",
+                            name));
+        else {
+            lacks_points = true;
+            merged.missing.push_back(fmt::format("run '{}': {} of {} points are missing", name,
+                                                 points - std::min(points, file.point_count(name)), points));
+        }
+    }
+    for (const auto& sentences : {lacks_points ? missing_parts(parts) : std::vector<std::string>(), merger.strangers()})
+        if (!merged.missing.empty())
+            merged.missing.insert(merged.missing.end(), sentences.begin(), sentences.end());
+    return merged;
+}
+
+} // namespace graze
