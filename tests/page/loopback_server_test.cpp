@@ -259,8 +259,8 @@ TEST(LoopbackServer, CannotBeLockedByThoseWhoSendNothing) {
 }
 
 TEST(LoopbackServer, GivesAnAnswerInPartsUntilItsEnd) {
-    LoopbackServer server(0);
     std::atomic<bool> left = false;
+    LoopbackServer server(0);
     server.start([](const HttpRequest&) { return std::optional<HttpAnswer>(); },
                  [&](const HttpRequest& request) {
                      HttpAnswer answer;
@@ -293,8 +293,8 @@ TEST(LoopbackServer, GivesAnAnswerInPartsUntilItsEnd) {
 TEST(LoopbackServer, LetsNoClientThatDoesNotReadStayForever) {
     LoopbackLimits limits;
     limits.patience = std::chrono::milliseconds(100);
-    LoopbackServer server(0, limits);
     std::atomic<bool> ended = false;
+    LoopbackServer server(0, limits);
     server.start([](const HttpRequest&) { return std::optional<HttpAnswer>(); },
                  [&](const HttpRequest&) {
                      HttpAnswer answer;
@@ -313,9 +313,9 @@ TEST(LoopbackServer, LetsNoClientThatDoesNotReadStayForever) {
 }
 
 TEST(LoopbackServer, KnowsThatAClientHasLeft) {
-    LoopbackServer server(0);
     std::atomic<int> asked = 0;
     std::atomic<bool> left = false;
+    LoopbackServer server(0);
     server.start([](const HttpRequest&) { return std::nullopt; },
                  [&](const HttpRequest& request) {
                      for (int i = 0; i < 2000 && !left; ++i, ++asked) {
@@ -339,9 +339,9 @@ TEST(LoopbackServer, KnowsThatAClientHasLeft) {
 TEST(LoopbackServer, HoldsSoManyUnreadBytesAndNoMore) {
     LoopbackLimits limits;
     limits.answers = 100'000;
-    LoopbackServer server(0, limits);
     constexpr std::size_t longer_than_what_the_system_holds = std::size_t{30} << 20;
     std::atomic<int> made = 0;
+    LoopbackServer server(0, limits);
     server.start([](const HttpRequest&) { return std::nullopt; },
                  [&](const HttpRequest& request) {
                      HttpAnswer answer;
@@ -370,8 +370,8 @@ TEST(LoopbackServer, HoldsSoManyUnreadBytesAndNoMore) {
 }
 
 TEST(LoopbackServer, AnswersWhatRunsBeforeItEnds) {
-    LoopbackServer server(0);
     std::atomic<bool> runs = false;
+    LoopbackServer server(0);
     server.start([](const HttpRequest&) { return std::nullopt; },
                  [&](const HttpRequest&) {
                      runs = true;
