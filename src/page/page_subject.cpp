@@ -20,26 +20,19 @@ namespace graze {
 
 namespace {
 
-bool is_result_file(const std::string& path) {
-    constexpr std::string_view signature("SQLite format 3\0", 16);
-    PlainFile file(path, "file");
-    std::string start(signature.size(), ' ');
-    return file.read(start.data(), start.size()) == signature.size() && start == signature;
-}
-
-/// A picture, say: its beginning has a zero byte, which no text has.
-bool is_no_text(const std::string& path) {
+std::string beginning_of(const std::string& path) {
     PlainFile file(path, "file");
     std::string start(512, ' ');
     start.resize(file.read(start.data(), start.size()));
-    return start.find('\0') != std::string::npos;
+    return start;
 }
 
 PageSubject subject_in_file(const std::string& path) {
     // The whole file is read only if it is a text.
-    if (is_result_file(path))
+    const std::string start = beginning_of(path);
+    if (start.starts_with(std::string_view("SQLite format 3\0", 16)))
         return {PageSubject::Kind::results, path, path};
-    if (is_no_text(path))
+    if (start.find('\0') != std::string::npos) // a picture, say: no text has a zero byte
         throw InputError(Place{path, 0, 0}, "this is not a text file, nor results of graze",
                          "name a study, a model, or results; a picture opens in a viewer of pictures");
     std::string text = read_text_file(path, "file", longest_model);

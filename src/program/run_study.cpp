@@ -101,13 +101,8 @@ int run_one_part(const StudyRequest& request, const RunArguments& arguments, con
     with_place({"--part", 0, 0}, [&] { part = study_part(arguments.part); });
     const std::string folder = (std::filesystem::path(request.folder) / folder_of_parts).string();
     make_folder(folder, "--output");
-    std::optional<ResultFile> results;
-    if (std::error_code error; std::filesystem::exists(request.file, error)) {
-        results.emplace(request.file, ResultFile::Access::read);
-        require_same_values(request.study, *results);
-    }
-    const std::string name = fmt::format("{}-of-{}.sqlite", part.number, part.count);
-    ResultFile file((std::filesystem::path(folder) / name).string(), ResultFile::Access::write);
+    const std::optional<ResultFile> results = earlier_results(request.study, request.file);
+    ResultFile file((std::filesystem::path(folder) / file_of_part(part)).string(), ResultFile::Access::write);
     require_same_values(request.study, file);
     const ResultFile* there = results ? &*results : nullptr;
     const std::vector<RunReport> reports = computed(request.study, arguments, console, [&](const auto& options) {

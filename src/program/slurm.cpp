@@ -34,10 +34,6 @@ double seconds_since(Clock::time_point time) {
     return std::chrono::duration<double>(Clock::now() - time).count();
 }
 
-std::string list_of(const std::vector<std::size_t>& numbers) {
-    return fmt::format("{}", fmt::join(number_ranges(numbers), ", "));
-}
-
 /// One of the parts, and its task.
 struct PartTask {
     bool ended = false;
@@ -129,7 +125,7 @@ public:
                 by_state[task->state].push_back(number);
         std::vector<std::string> texts;
         for (const auto& [state, numbers] : by_state)
-            texts.push_back(fmt::format("{} {}", state, list_of(numbers)));
+            texts.push_back(fmt::format("{} {}", state, number_ranges(numbers)));
         return fmt::format("{}", fmt::join(texts, ", "));
     }
 
@@ -185,8 +181,7 @@ private:
 
     /// The file of a part that can be read; none if it has not been begun, or was cut off in its first moments.
     std::optional<ResultFile> part_file(std::size_t number) const {
-        const std::string path =
-            (fs::path(array_.folder) / fmt::format("{}-of-{}.sqlite", number, array_.count)).string();
+        const std::string path = (fs::path(array_.folder) / file_of_part({number, array_.count})).string();
         if (std::error_code error; !fs::exists(path, error))
             return std::nullopt;
         try {
@@ -258,10 +253,10 @@ void submit(SlurmParts& parts, const RunArguments& arguments, const Console& con
     const std::vector<std::size_t> left = parts.left();
     const std::string count = fmt::format("{}", parts.array().count);
     if (!left.empty()) {
-        const std::string which = left.size() == 1 ? fmt::format("part {} of {}", list_of(left), count)
+        const std::string which = left.size() == 1 ? fmt::format("part {} of {}", number_ranges(left), count)
                                   : left.size() == parts.array().count
                                       ? "all " + count + " parts"
-                                      : fmt::format("parts {} of {}", list_of(left), count);
+                                      : fmt::format("parts {} of {}", number_ranges(left), count);
         const SlurmJob job = parts.submit(arguments.sbatch);
         console.err << fmt::format("graze: job {} of SLURM computes {}{}\n", job.id, which,
                                    parts.ended() > 0 ? fmt::format("; {} ended before", parts.ended()) : "");
@@ -319,13 +314,10 @@ int run_by_slurm(const Study& study, const std::string& folder, const std::strin
     const std::string folder_of_tasks = (fs::path(own) / folder_of_parts).string();
     make_folder(folder_of_tasks, "--output");
     std::vector<std::string> waiting;
-    if (std::error_code error; fs::exists(file, error)) {
-        const ResultFile results(file, ResultFile::Access::read);
-        require_same_values(study, results);
-        waiting = waiting_runs(study, &results);
-    } else {
-        waiting = waiting_runs(study, nullptr);
-    }
+    {
+        const std::optional<ResultFile> results = earlier_results(study, file);
+        waiting = waiting_runs(study, results ? &*results : nullptr);
+    } // which closes them: the merge writes to them
     SlurmParts parts(study, {study.name,
                              folder_of_tasks,
                              static_cast<std::size_t>(arguments.slurm),

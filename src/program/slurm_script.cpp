@@ -65,8 +65,8 @@ std::string slurm_script(const SlurmArray& array) {
 exec {} \
     --part "$SLURM_ARRAY_TASK_ID/{}" --jobs "${{SLURM_CPUS_PER_TASK:-1}}" --quiet
 )",
-                       array.name, fmt::join(number_ranges(array.numbers), ","),
-                       directive_path(messages_of_part(array, "%a")), array.count, command, array.count);
+                       array.name, number_ranges(array.numbers, ","), directive_path(messages_of_part(array, "%a")),
+                       array.count, command, array.count);
 }
 
 } // namespace graze

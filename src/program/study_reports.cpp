@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 
 namespace graze {
@@ -132,17 +133,15 @@ std::string text_of_values(const ParameterValues& set) {
 }
 
 void require_same_values(const Study& study, const ResultFile& file) {
-    const auto other = other_set(study, file);
-    if (!other)
-        return;
-    const auto words = [](ParameterValues set) {
-        std::ranges::sort(set);
-        return set.empty() ? std::string("the study's own values") : text_of_values(set);
-    };
-    throw InputError(Place{file.path(), 0, 0},
-                     fmt::format("the results there were made with {}, and those asked for are of {}", words(*other),
-                                 words(study.set)),
-                     "choose another folder by --output");
+    require_same_values(study, file, text_of_values, "choose another folder by --output");
+}
+
+std::optional<ResultFile> earlier_results(const Study& study, const std::string& path) {
+    if (std::error_code error; !std::filesystem::exists(path, error))
+        return std::nullopt;
+    std::optional<ResultFile> results(std::in_place, path, ResultFile::Access::read);
+    require_same_values(study, *results);
+    return results;
 }
 
 bool is_interrupted(const std::vector<RunReport>& reports) {

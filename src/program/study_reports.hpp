@@ -4,6 +4,7 @@
 #include "program/arguments.hpp"
 #include "program/program.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ inline constexpr const char* folder_of_parts = "parts"; ///< in the folder of a 
 std::string text_of_values(const ParameterValues& set);
 /// @throws InputError if the result file was made with other values of --set
 void require_same_values(const Study& study, const ResultFile& file);
+/// The results of a study, for reading; none if there is no such file. @throws InputError as require_same_values
+std::optional<ResultFile> earlier_results(const Study& study, const std::string& path);
 
 bool is_interrupted(const std::vector<RunReport>& reports);
 /// Says that the same command goes on from there. @return the exit code

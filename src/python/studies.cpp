@@ -112,21 +112,14 @@ py::list keys_of(const std::string& kind) {
 }
 
 /// Refuses results of other values of parameters.
-void require_same_values(const Study& study, const ResultFile& file) {
-    const auto other = other_set(study, file);
-    if (!other)
-        return;
-    const auto words = [](ParameterValues set) {
-        std::ranges::sort(set);
+void require_values_of_study(const Study& study, const ResultFile& file) {
+    const auto words = [](const ParameterValues& set) {
         std::string text;
         for (const auto& [name, value] : set)
             text += (text.empty() ? "" : ", ") + name + " = " + py::str(py::float_(value)).cast<std::string>();
-        return text.empty() ? std::string("the study's own values") : text;
+        return text;
     };
-    throw InputError(Place{file.path(), 0, 0},
-                     "the results there were made with " + words(*other) + ", and those asked for are of " +
-                         words(study.set),
-                     "choose another folder: output=\"FOLDER\"");
+    require_same_values(study, file, words, "choose another folder: output=\"FOLDER\"");
 }
 
 const StudyTable& table_named(const Study& study, const std::string& name) {
@@ -194,7 +187,7 @@ void bind_studies(py::module_& module) {
             py::arg("file"))
         .def(
             "store", [](const Study& self, ResultFile& file) { store_study(self, file); }, py::arg("file"))
-        .def("require_same_values", &require_same_values, py::arg("file"))
+        .def("require_same_values", &require_values_of_study, py::arg("file"))
         .def_readonly("name", &Study::name)
         .def_readonly("text", &Study::text)
         .def_readonly("source", &Study::source)

@@ -36,18 +36,24 @@ private:
     bool ended_ = false;
 };
 
+/// A part that has something of a run.
+struct RunOfPart {
+    const ResultFile* file;
+    RunRecord record;
+};
+
 /// Where the points of each chain are.
 struct ChainSource {
     std::uint32_t part = 0, points = 0; ///< how many points it has of the chain, from the first one on
 };
 
-std::vector<ChainSource> sources_of(const std::vector<const ResultFile*>& parts, const PartedRun& run) {
+std::vector<ChainSource> sources_of(const std::vector<RunOfPart>& parts, const PartedRun& run) {
     std::vector<ChainSource> sources(run.chains());
     const std::size_t length = run.chain_length();
     for (std::uint32_t part = 0; part < parts.size(); ++part) {
         std::size_t chain = 0;
         std::uint32_t points = 0;
-        for (const std::size_t number : parts[part]->point_numbers(run.run().name)) {
+        for (const std::size_t number : parts[part].file->point_numbers(run.run().name)) {
             if (number / length != chain) {
                 chain = number / length;
                 points = 0;
@@ -82,15 +88,15 @@ public:
     }
 
 private:
-    /// The parts that have something of a run. @throws InputError if it failed in one of them
-    std::vector<const ResultFile*> with_run(const std::string& name, const std::string& fingerprint) {
-        std::vector<const ResultFile*> having;
+    /// The parts that have something of a run.
+    std::vector<RunOfPart> with_run(const std::string& name, const std::string& fingerprint) {
+        std::vector<RunOfPart> having;
         for (const ResultFile& part : *parts_) {
-            const auto run = part.find_run(name);
+            auto run = part.find_run(name);
             if (!run)
                 continue;
             if (run->fingerprint == fingerprint)
-                having.push_back(&part);
+                having.push_back({&part, std::move(*run)});
             else
                 strangers_[part.path()].insert(name);
         }
@@ -99,11 +105,11 @@ private:
 
     bool give_points(const AskedPoints& asked, const PointSink& sink) {
         const std::string& name = asked.run.run().name;
-        const std::vector<const ResultFile*> parts = with_run(name, asked.fingerprint);
+        const std::vector<RunOfPart> parts = with_run(name, asked.fingerprint);
         const std::vector<ChainSource> sources = sources_of(parts, asked.run);
         std::vector<PartPoints> points;
-        for (const ResultFile* part : parts)
-            points.emplace_back(*part, name);
+        for (const RunOfPart& part : parts)
+            points.emplace_back(*part.file, name);
         const std::size_t length = asked.run.chain_length();
         for (std::size_t chain = 0; chain < sources.size(); ++chain) {
             const std::size_t done = chain < asked.known.size() ? asked.known[chain].done : 0;
@@ -116,16 +122,16 @@ private:
                     return false;
             }
         }
-        for (const ResultFile* part : parts)
-            if (const auto run = part->find_run(name); run && run->status == RunStatus::failed)
-                throw failure_of(*run);
+        for (const RunOfPart& part : parts)
+            if (part.record.status == RunStatus::failed)
+                throw failure_of(part.record);
         return true;
     }
 
     std::optional<ResultFile> results(const AskedResults& asked) {
-        for (const ResultFile* part : with_run(asked.run.name, asked.fingerprint))
-            if (const auto run = part->find_run(asked.run.name); run && run->status != RunStatus::unfinished)
-                return *part;
+        for (const RunOfPart& part : with_run(asked.run.name, asked.fingerprint))
+            if (part.record.status != RunStatus::unfinished)
+                return *part.file;
         return std::nullopt;
     }
 
@@ -142,9 +148,6 @@ std::vector<std::string> missing_parts(const std::vector<ResultFile>& parts) {
             ended = ended || has_ended(file);
         }
     std::vector<std::string> sentences;
-    const auto listed = [](const std::vector<std::size_t>& numbers) {
-        return fmt::format("{}", fmt::join(number_ranges(numbers), ", "));
-    };
     for (const auto& [count, found] : divisions) {
         std::vector<std::size_t> absent, unfinished;
         for (std::size_t number = 1; number <= count; ++number)
@@ -153,9 +156,9 @@ std::vector<std::string> missing_parts(const std::vector<ResultFile>& parts) {
             else if (!one->second)
                 unfinished.push_back(number);
         if (!absent.empty())
-            sentences.push_back(fmt::format("not there: part {} of {}", listed(absent), count));
+            sentences.push_back(fmt::format("not there: part {} of {}", number_ranges(absent), count));
         if (!unfinished.empty())
-            sentences.push_back(fmt::format("not ended: part {} of {}", listed(unfinished), count));
+            sentences.push_back(fmt::format("not ended: part {} of {}", number_ranges(unfinished), count));
     }
     return sentences;
 }
@@ -167,6 +170,9 @@ MergedParts merge_parts(const Study& study, const std::vector<ResultFile>& parts
     Merger merger(parts);
     MergedParts merged;
     merged.reports = run_study(study, file, options, merger.elsewhere());
+    if (std::ranges::none_of(merged.reports,
+                             [](const RunReport& report) { return report.outcome == RunOutcome::partial; }))
+        return merged;
     const std::vector<std::string> later = waiting_runs(study, nullptr), waiting = waiting_runs(study, &file);
     const auto is_in = [](const std::vector<std::string>& runs, const std::string& name) {
         return std::ranges::find(runs, name) != runs.end();
@@ -194,8 +200,7 @@ MergedParts merge_parts(const Study& study, const std::vector<ResultFile>& parts
         }
     }
     for (const auto& sentences : {lacks_points ? missing_parts(parts) : std::vector<std::string>(), merger.strangers()})
-        if (!merged.missing.empty())
-            merged.missing.insert(merged.missing.end(), sentences.begin(), sentences.end());
+        merged.missing.insert(merged.missing.end(), sentences.begin(), sentences.end());
     return merged;
 }
 

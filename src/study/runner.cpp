@@ -235,17 +235,17 @@ private:
         const std::string fingerprint = file_.with([&](ResultFile&) { return fingerprints_.at(run.name); });
         const auto found = elsewhere_.results({run, fingerprint, options_.interrupted});
         const auto record = found ? found->find_run(run.name) : std::nullopt;
-        const bool is_interrupted = !record && options_.interrupted();
-        if (record && run.is_branch() && options_.orbit)
+        if (!record) {
+            if (options_.interrupted())
+                work.report.outcome = RunOutcome::interrupted;
+            else
+                file_.with([&](ResultFile&) { leave(run, work.report); });
+            return true;
+        }
+        if (run.is_branch() && options_.orbit)
             for (const OrbitRecord& orbit : found->orbits(run.name, false))
                 options_.orbit(run.name, orbit);
         file_.with([&](ResultFile& file) {
-            if (!record && is_interrupted)
-                work.report.outcome = RunOutcome::interrupted;
-            else if (!record)
-                leave(run, work.report);
-            if (!record)
-                return;
             copy_rows(*found, *record, file, run.name);
             work.report.points = work.report.computed = file.point_count(run.name);
             if (record->status == RunStatus::failed && !lacks_orbits(*record, *found))

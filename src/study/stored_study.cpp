@@ -177,6 +177,22 @@ std::optional<ParameterValues> other_set(const Study& study, const ResultFile& f
     return sorted == asked ? std::nullopt : stored;
 }
 
+void require_same_values(const Study& study, const ResultFile& file,
+                         const std::function<std::string(const ParameterValues& set)>& words,
+                         const std::string& remedy) {
+    const auto other = other_set(study, file);
+    if (!other)
+        return;
+    const auto said = [&](ParameterValues set) {
+        std::ranges::sort(set);
+        return set.empty() ? std::string("the study's own values") : words(set);
+    };
+    throw InputError(Place{file.path(), 0, 0},
+                     fmt::format("the results there were made with {}, and those asked for are of {}", said(*other),
+                                 said(study.set)),
+                     remedy);
+}
+
 namespace {
 
 /// @param only_asked whether runs that the file has besides those that were asked for are left out

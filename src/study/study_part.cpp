@@ -113,6 +113,10 @@ std::string text_of(const StudyPart& part) {
     return fmt::format("{}/{}", part.number, part.count);
 }
 
+std::string file_of_part(const StudyPart& part) {
+    return fmt::format("{}-of-{}.sqlite", part.number, part.count);
+}
+
 StudyPart study_part(const std::string& text) {
     const std::size_t slash = std::min(text.find('/'), text.size());
     const StudyPart part{whole_number(std::string_view(text).substr(0, slash)),

@@ -3,6 +3,7 @@
 #include "graze/results/result_file.hpp"
 #include "graze/study/study.hpp"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,6 +30,12 @@ std::optional<ParameterValues> stored_set(const ResultFile& file);
 /// Returns the values (Study::set) with which a result file was made if they are others than those of a study: one file
 /// holds results of one set only.
 std::optional<ParameterValues> other_set(const Study& study, const ResultFile& file);
+/// Refuses results of other values.
+/// @param words that say values, which are not empty, to whoever asks for the study
+/// @throws InputError with this remedy
+void require_same_values(const Study& study, const ResultFile& file,
+                         const std::function<std::string(const ParameterValues& set)>& words,
+                         const std::string& remedy);
 /// Returns the study of a result file, which needs no other file.
 /// @throws InputError when something cannot be read
 Study stored_study(const ResultFile& file);

@@ -27,6 +27,9 @@ std::string text_of(const StudyPart& part);
 /// @throws InputError unless the text is of that form
 StudyPart study_part(const std::string& text);
 
+/// Name of the file of a part, in the folder of all parts: "3-of-64.sqlite".
+std::string file_of_part(const StudyPart& part);
+
 /// The part that a result file holds; none: it is the file of a whole study.
 std::optional<StudyPart> part_in(const ResultFile& file);
 /// Whether all that can be computed of that part has been.
