@@ -169,7 +169,7 @@ void RunsMemory::keep_all(const std::string& traces, const std::shared_ptr<const
                           const nlohmann::json& list) {
     const std::lock_guard lock(mutex_);
     const auto is_read = [&](const nlohmann::json& one) {
-        return one["revision"] == "" || runs_.contains(one["name"].get<std::string>());
+        return one["revision"].get_ref<const std::string&>().empty() || runs_.contains(one["name"].get<std::string>());
     };
     all_ = std::ranges::all_of(list, is_read) ? list : nlohmann::json();
     traces_ = traces;
