@@ -10,6 +10,7 @@
 #include "program/drawing.hpp"
 #include "program/interrupt.hpp"
 #include "program/kept_inputs.hpp"
+#include "program/mpi_workers.hpp"
 #include "program/output_file.hpp"
 
 #include <fmt/format.h>
@@ -17,8 +18,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace graze {
@@ -177,17 +181,7 @@ int interrupted(const Console& console) {
     return InterruptGuard::exit_code();
 }
 
-} // namespace
-
-int design_command(const DesignArguments& arguments, const Console& console) {
-    if (arguments.list)
-        return list_designs(arguments, console);
-    if (arguments.design.empty())
-        throw InputError("no design is named", "graze design --list names those that come with graze");
-    if (arguments.show) {
-        console.out << shipped_design_text(arguments.design);
-        return exit_success;
-    }
+int find_design(const DesignArguments& arguments, const Console& console, std::unique_ptr<Workers> workers) {
     const Design first = load_design(arguments.design);
     const std::string folder = arguments.folder.empty() ? first.name : arguments.folder;
     make_folder(folder, "--output");
@@ -198,9 +192,13 @@ int design_command(const DesignArguments& arguments, const Console& console) {
     place.begin(first);
     const InterruptGuard guard;
     StatusLine line(console, console.terminal);
-    const DesignReportOptions options = interactive_options(arguments.jobs, line);
-    const FinishedDesign finished =
-        finish_design(first, {place.path(results_name), [&] { return place.designed(); }}, options);
+    DesignReportOptions options = interactive_options(arguments.jobs, line, workers.get());
+    FinishedDesign finished;
+    carry_out(workers.get(), [&](const std::function<bool()>& must_stop) {
+        options.interrupted = must_stop;
+        finished = finish_design(first, {place.path(results_name), [&] { return place.designed(); }}, options);
+    });
+    workers.reset(); // the rest is for one process
     if (finished.interrupted)
         return interrupted(console);
     write_all(place, finished, arguments, console);
@@ -221,6 +219,22 @@ int design_command(const DesignArguments& arguments, const Console& console) {
             "trip point at {:.6g}: change approach.range, approach.from or what is wanted\n",
             *report.wishes->trip_value, finished.trip->value());
     return finished.warnings().empty() ? exit_success : exit_irregular;
+}
+
+} // namespace
+
+int design_command(const DesignArguments& arguments, const Console& console) {
+    if (arguments.list)
+        return list_designs(arguments, console);
+    if (arguments.design.empty())
+        throw InputError("no design is named", "graze design --list names those that come with graze");
+    if (arguments.show) {
+        console.out << shipped_design_text(arguments.design);
+        return exit_success;
+    }
+    return with_workers(arguments.jobs, [&](std::unique_ptr<Workers> workers) {
+        return find_design(arguments, console, std::move(workers));
+    });
 }
 
 } // namespace graze

@@ -9,6 +9,7 @@
 #include "program/commands.hpp"
 #include "program/drawing.hpp"
 #include "program/layout_outputs.hpp"
+#include "program/mpi_workers.hpp"
 #include "program/output_file.hpp"
 #include "program/values.hpp"
 
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 
 namespace graze {
 
@@ -98,9 +100,8 @@ void write_recipe(const LayoutArguments& arguments, const DeviceFile& file, bool
     draw_fabrication(process_steps(file, device, plane_through_stop(device)), arguments.recipe);
 }
 
-} // namespace
-
-int layout_command(const LayoutArguments& arguments, const Console& console) {
+/// @param workers for the devices of wafers; null: there are none
+int draw_device(const LayoutArguments& arguments, const Console& console, Workers* workers) {
     const auto [path, pictures] = asked_for(arguments);
     require_places(arguments);
     DeviceFile file;
@@ -139,7 +140,8 @@ int layout_command(const LayoutArguments& arguments, const Console& console) {
         write_file(path, gds_stream(arguments.mask ? mask_library(layout, *arguments.mask) : layout.library));
     }
     if (arguments.yield) {
-        const int code = layout_yield(arguments, file, arguments.wafer ? layout : draw_wafer_layout(file), console);
+        const Layout wafer = arguments.wafer ? layout : draw_wafer_layout(file);
+        const int code = layout_yield(arguments, file, wafer, console, workers);
         return code == exit_success && !ruled ? exit_irregular : code;
     }
     if (designed) {
@@ -151,6 +153,16 @@ int layout_command(const LayoutArguments& arguments, const Console& console) {
     heading.add("top", layout.top);
     deliver(table, arguments.output, heading, console);
     return ruled ? exit_success : exit_irregular;
+}
+
+} // namespace
+
+int layout_command(const LayoutArguments& arguments, const Console& console) {
+    if (!arguments.yield)
+        return draw_device(arguments, console, nullptr);
+    return with_workers(arguments.jobs, [&](const std::unique_ptr<Workers>& workers) {
+        return draw_device(arguments, console, workers.get());
+    });
 }
 
 } // namespace graze

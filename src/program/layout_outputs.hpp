@@ -3,6 +3,7 @@
 #include "graze/layout/drawn_design.hpp"
 #include "graze/layout/fabrication_rules.hpp"
 #include "graze/layout/wafer_yield.hpp"
+#include "graze/study/workers.hpp"
 #include "program/arguments.hpp"
 #include "program/program.hpp"
 
@@ -23,7 +24,9 @@ bool check_rules(const DeviceFile& file, const Layout& layout, bool despite, con
 
 /// Carries out `graze layout DESIGN --yield N`: simulates wafers of devices and writes a folder of tables and maps.
 /// @param wafer drawn by draw_wafer_layout
-int layout_yield(const LayoutArguments& arguments, const DeviceFile& file, const Layout& wafer, const Console& console);
+/// @param workers solve for the devices; null: threads of this process do
+int layout_yield(const LayoutArguments& arguments, const DeviceFile& file, const Layout& wafer, const Console& console,
+                 Workers* workers);
 
 /// Reads the designed device from the output folder of `graze design`, and solves for the drawing that gives it.
 /// @throws InputError when the folder has no device, or one of another model

@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <functional>
 #include <map>
 
 namespace graze {
@@ -57,8 +58,8 @@ void tell_problems(const WaferYield& yield, const Console& console) {
 
 } // namespace
 
-int layout_yield(const LayoutArguments& arguments, const DeviceFile& file, const Layout& wafer,
-                 const Console& console) {
+int layout_yield(const LayoutArguments& arguments, const DeviceFile& file, const Layout& wafer, const Console& console,
+                 Workers* workers) {
     const Design own = load_design(arguments.design);
     keep_inputs_of(own);
     const Design design = with_place(own.approach.place, [&] { return design_of_device(own, file); });
@@ -70,21 +71,25 @@ int layout_yield(const LayoutArguments& arguments, const DeviceFile& file, const
         KeptInputs::require_none_at(one); // before the computation
     const InterruptGuard guard;
     StatusLine line(console, console.terminal);
-    const DesignReportOptions options = interactive_options(arguments.jobs, line);
-    const std::optional<TripPoint> trip = locate_trip(design, path("results.sqlite"), options);
+    DesignReportOptions options = interactive_options(arguments.jobs, line, workers);
     WaferYieldSettings settings;
     settings.wafers = *arguments.yield;
     settings.seed = arguments.seed;
     settings.jobs = options.jobs;
-    settings.interrupted = options.interrupted;
+    settings.elsewhere = options.elsewhere;
     settings.progress = [&](std::size_t devices) { options.progress(fmt::format("device {}", devices)); };
-    const WaferYield found =
-        trip ? with_place(design.approach.place, [&] { return wafer_yield_of(design, file, wafer, *trip, settings); })
-             : WaferYield();
-    if (!trip || found.yield.interrupted) {
+    std::optional<WaferYield> made;
+    carry_out(workers, [&](const std::function<bool()>& must_stop) {
+        options.interrupted = settings.interrupted = must_stop;
+        if (const std::optional<TripPoint> trip = locate_trip(design, path("results.sqlite"), options))
+            made =
+                with_place(design.approach.place, [&] { return wafer_yield_of(design, file, wafer, *trip, settings); });
+    });
+    if (!made || made->yield.interrupted) {
         console.err << "graze: interrupted; nothing but the way to the trip point is kept\n";
         return InterruptGuard::exit_code();
     }
+    const WaferYield& found = *made;
     const Table facts = wafer_fact_table(found, design.model, design.control, settings.wafers);
     const Table devices = wafer_device_table(found, wafer, design.model, design.control);
     write_file(written[0], csv_text(facts));

@@ -22,6 +22,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace graze {
 
@@ -104,20 +105,51 @@ int run_one_part(const StudyRequest& request, const RunArguments& arguments, con
     const std::optional<ResultFile> results = earlier_results(request.study, request.file);
     ResultFile file((std::filesystem::path(folder) / file_of_part(part)).string(), ResultFile::Access::write);
     require_same_values(request.study, file);
-    const ResultFile* there = results ? &*results : nullptr;
+    std::vector<std::string> waiting;
     const std::vector<RunReport> reports = computed(request.study, arguments, console, [&](const auto& options) {
-        return run_part(request.study, part, there, file, options);
+        PartReports made = run_part(request.study, part, results ? &*results : nullptr, file, options);
+        waiting = std::move(made.waiting);
+        return std::move(made.runs);
     });
     list_runs(reports, file, arguments, console);
     const bool failed = tell_failures(reports, console);
     if (is_interrupted(reports))
         return told_interruption(console);
-    for (const std::string& run : waiting_runs(request.study, there))
+    for (const std::string& run : waiting)
         console.err << fmt::format(
             "graze: run '{}' waits for runs that several parts compute: merge them, then compute "
             "the parts again\n",
             run);
     return failed ? exit_irregular : exit_success;
+}
+
+/// A study that is asked for, after a look at what is said about it.
+StudyRequest checked_request(const RunArguments& arguments) {
+    StudyRequest request = study_request(arguments);
+    keep_inputs_of(request.study);
+    check_names(request.study, split_list(arguments.only));
+    make_folder(request.folder, "--output");
+    return request;
+}
+
+/// Computes a part, or has SLURM compute all parts, whatever other processes were started with this one.
+int compute_alone(const RunArguments& arguments, const Console& console) {
+    const StudyRequest request = checked_request(arguments);
+    const InterruptGuard guard;
+    return arguments.slurm > 0 ? run_by_slurm(request.study, request.folder, request.file, arguments, console)
+                               : run_one_part(request, arguments, console);
+}
+
+int compute_study(const RunArguments& arguments, const Console& console, std::unique_ptr<Workers> workers) {
+    const StudyRequest request = checked_request(arguments);
+    const InterruptGuard guard;
+    ResultFile file(request.file, ResultFile::Access::write);
+    require_same_values(request.study, file);
+    const std::vector<RunReport> reports = computed(request.study, arguments, console, [&](const auto& options) {
+        return workers ? workers->run_study(request.study, file, options) : run_study(request.study, file, options);
+    });
+    workers.reset(); // the rest is for one process
+    return finish_study(request.study, reports, file, request.folder, arguments, console);
 }
 
 } // namespace
@@ -137,26 +169,11 @@ int run_command(const RunArguments& arguments, const Console& console) {
         console.out << shipped_study_text(arguments.study);
         return exit_success;
     }
-    const auto started = arguments.part.empty() && arguments.slurm == 0 ? mpi_start() : std::nullopt;
-    if (started && started->number > 0)
-        return work_by_mpi(*started, arguments.jobs);
-    std::unique_ptr<Workers> workers = started ? mpi_workers(*started, arguments.jobs) : nullptr;
-    const StudyRequest request = study_request(arguments);
-    keep_inputs_of(request.study);
-    check_names(request.study, split_list(arguments.only));
-    make_folder(request.folder, "--output");
-    const InterruptGuard guard;
-    if (!arguments.part.empty())
-        return run_one_part(request, arguments, console);
-    if (arguments.slurm > 0)
-        return run_by_slurm(request.study, request.folder, request.file, arguments, console);
-    ResultFile file(request.file, ResultFile::Access::write);
-    require_same_values(request.study, file);
-    const std::vector<RunReport> reports = computed(request.study, arguments, console, [&](const auto& options) {
-        return workers ? workers->run_study(request.study, file, options) : run_study(request.study, file, options);
+    if (!arguments.part.empty() || arguments.slurm > 0)
+        return compute_alone(arguments, console);
+    return with_workers(arguments.jobs, [&](std::unique_ptr<Workers> workers) {
+        return compute_study(arguments, console, std::move(workers));
     });
-    workers.reset(); // the rest is for one process
-    return finish_study(request.study, reports, file, request.folder, arguments, console);
 }
 
 } // namespace graze

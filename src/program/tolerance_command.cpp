@@ -6,6 +6,7 @@
 #include "program/commands.hpp"
 #include "program/drawing.hpp"
 #include "program/interrupt.hpp"
+#include "program/mpi_workers.hpp"
 #include "program/output_file.hpp"
 #include "program/status_line.hpp"
 #include "program/values.hpp"
@@ -14,8 +15,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <memory>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace graze {
@@ -28,7 +32,8 @@ struct Findings : LocatedPoint {
     std::optional<Yield> yield{};
 };
 
-void set_yield(Findings& found, const System& system, const ToleranceArguments& arguments, const Console& console) {
+void set_yield(Findings& found, const System& system, const ToleranceArguments& arguments, const Console& console,
+               Workers* workers) {
     YieldSettings& settings = found.settings;
     for (const std::string& item : split_list(arguments.vary))
         settings.tolerances.push_back(read_tolerance(found, item, "--vary"));
@@ -36,15 +41,18 @@ void set_yield(Findings& found, const System& system, const ToleranceArguments& 
         read_interval(settings, found, arguments.within, "--within");
     settings.devices = arguments.devices;
     settings.seed = arguments.seed;
-    settings.jobs = threads_for(arguments.jobs);
-    settings.interrupted = [] { return InterruptGuard::requested(); };
+    settings.jobs = threads_beside(workers, arguments.jobs);
+    settings.elsewhere = workers ? workers->devices() : nullptr;
     StatusLine line(console, console.terminal);
     settings.progress = [&](std::size_t devices) {
         if (line.is_due())
             line.show(fmt::format("device {} of {}", devices, arguments.devices));
     };
-    found.yield =
-        with_place({"--vary", 0, 0}, [&] { return yield_of(system, found.point, found.located.control(), settings); });
+    carry_out(workers, [&](const std::function<bool()>& interrupted) {
+        settings.interrupted = interrupted;
+        found.yield = with_place({"--vary", 0, 0},
+                                 [&] { return yield_of(system, found.point, found.located.control(), settings); });
+    });
 }
 
 /// The statistics by their names.
@@ -126,16 +134,15 @@ void require_devices(const ToleranceArguments& arguments) {
         picture_ending(arguments.plot, "--plot", {"svg", "png", "pdf", "eps"});
 }
 
-} // namespace
-
-int tolerance_command(const ToleranceArguments& arguments, const Console& console) {
+int find_tolerance(const ToleranceArguments& arguments, const Console& console, std::unique_ptr<Workers> workers) {
     require_devices(arguments);
     const ResultFile file(result_path(arguments.file), ResultFile::Access::read);
     Findings found{located_point(file, arguments.point, arguments.parameter, {"POINT", 0, 0}, {"--parameter", 0, 0})};
     const System system(found.stored.run.model);
     const InterruptGuard guard;
     if (!arguments.vary.empty())
-        set_yield(found, system, arguments, console);
+        set_yield(found, system, arguments, console, workers.get());
+    workers.reset(); // the rest is for one process
     show(file, found, arguments.output, console);
     if (!found.yield)
         return exit_success;
@@ -149,6 +156,14 @@ int tolerance_command(const ToleranceArguments& arguments, const Console& consol
         return InterruptGuard::exit_code();
     }
     return found.yield->failed > 0 ? exit_irregular : exit_success;
+}
+
+} // namespace
+
+int tolerance_command(const ToleranceArguments& arguments, const Console& console) {
+    return with_workers(arguments.jobs, [&](std::unique_ptr<Workers> workers) {
+        return find_tolerance(arguments, console, std::move(workers));
+    });
 }
 
 } // namespace graze

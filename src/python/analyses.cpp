@@ -7,9 +7,9 @@
 #include "graze/results/point_tolerances.hpp"
 #include "graze/results/touch_facts.hpp"
 #include "graze/study/stored_ladder.hpp"
+#include "graze/study/yield_part.hpp"
 #include "python/analysis_progress.hpp"
 #include "python/figures.hpp"
-#include "python/parts.hpp"
 #include "python/tables.hpp"
 
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "graze/design/design_report.hpp"
+#include "graze/study/yield_part.hpp"
 #include "python/attended.hpp"
 #include "python/noted.hpp"
-#include "python/parts.hpp"
 
 #include <functional>
 #include <memory>

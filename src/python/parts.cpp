@@ -1,6 +1,8 @@
-#include "python/parts.hpp"
+#include "python/binding.hpp"
 
 #include "graze/layout/wafer_yield.hpp"
+#include "graze/study/part_computer.hpp"
+#include "graze/study/part_exchange.hpp"
 #include "graze/study/part_sizes.hpp"
 #include "python/attended.hpp"
 
@@ -16,26 +18,15 @@ namespace {
 /// What a worker needs in order to compute parts of some work: it is made of the text of PartedWork.
 class PartWorker {
 public:
-    explicit PartWorker(const std::string& text) {
-        if (is_device_solver(text))
-            computed_ = [solver = std::make_shared<const DeviceSolver>(device_solver_of(text, wafer_examination_of))](
-                            const std::string& part, const std::function<bool()>& must_stop) {
-                return solved_part(*solver, part, must_stop);
-            };
-        else
-            computed_ = [run = std::make_shared<const PartedRun>(text)](const std::string& part,
-                                                                        const std::function<bool()>& must_stop) {
-                return computed_points(*run, part_of(part), must_stop);
-            };
-    }
+    explicit PartWorker(const std::string& text) : computation_(computation_of(text, wafer_examination_of)) {}
     py::bytes computed(const std::string& part) const {
         std::string result;
-        attended([&](const std::function<bool()>& must_stop) { result = computed_(part, must_stop); });
+        attended([&](const std::function<bool()>& must_stop) { result = computation_(part, must_stop, {}); });
         return result;
     }
 
 private:
-    std::function<std::string(const std::string& part, const std::function<bool()>& must_stop)> computed_;
+    PartComputation computation_;
 };
 
 py::list opened_by(PartExchange& exchange) {
@@ -50,21 +41,6 @@ py::list opened_by(PartExchange& exchange) {
 }
 
 } // namespace
-
-DevicesElsewhere devices_by(const std::shared_ptr<PartExchange>& parts) {
-    if (!parts)
-        return {};
-    return [parts](const AskedDevices& devices, const std::function<bool()>& interrupted, const DeviceSink& sink) {
-        const auto take = [&](ItemRange range, const std::string& solved, bool) {
-            read_devices(devices, range, solved, sink);
-        };
-        return parts->await({bytes_of(devices.solver),
-                             {{0, devices.count}},
-                             [&](ItemRange range) { return part_of(devices, range); },
-                             take},
-                            interrupted);
-    };
-}
 
 void bind_parts(py::module_& module) {
     py::class_<PartWorker, std::shared_ptr<PartWorker>>(module, "PartWorker")

@@ -1,6 +1,7 @@
 #include "graze/picture/result_picture.hpp"
 #include "graze/results/table_text.hpp"
 #include "graze/study/further_runs.hpp"
+#include "graze/study/part_exchange.hpp"
 #include "graze/study/run_summary.hpp"
 #include "graze/study/runner.hpp"
 #include "graze/study/stored_study.hpp"
@@ -10,7 +11,6 @@
 #include "python/attended.hpp"
 #include "python/figures.hpp"
 #include "python/noted.hpp"
-#include "python/parts.hpp"
 #include "python/tables.hpp"
 
 #include <algorithm>

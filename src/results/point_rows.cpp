@@ -149,31 +149,40 @@ std::size_t ResultFile::point_count(const std::string& name) const {
     return static_cast<std::size_t>(rows.integer(0));
 }
 
-std::vector<PointRecord> ResultFile::last_points(const std::string& name, std::size_t chain_length) const {
-    std::vector<PointRecord> points;
-    const auto run = find_run(name);
+std::function<std::optional<PointRecord>()> ResultFile::last_points(const std::string& name,
+                                                                    std::size_t chain_length) const {
+    auto run = find_run(name);
     if (!run || run->is_branch() || chain_length == 0)
-        return points;
+        return [] { return std::optional<PointRecord>(); };
     const RunTables tables(*run);
     Statement rows = state_->database.prepare(
         fmt::format("{0} WHERE number IN (SELECT max(number) FROM {1} GROUP BY number / {2}) ORDER BY number",
                     tables.select_point(), tables.points, chain_length));
     require_columns(rows, tables.point_columns.size(), path());
-    while (rows.step())
-        points.push_back(read_point(rows, *run));
-    return points;
+    struct Reading {
+        std::shared_ptr<State> state; // outlives the statement
+        RunRecord run;
+        Statement rows;
+    };
+    return [reading = std::make_shared<Reading>(Reading{state_, std::move(*run), std::move(rows)})] {
+        return reading->rows.step() ? std::optional(read_point(reading->rows, reading->run)) : std::nullopt;
+    };
 }
 
-std::vector<std::size_t> ResultFile::point_numbers(const std::string& name) const {
-    std::vector<std::size_t> numbers;
+std::function<std::optional<std::size_t>()> ResultFile::point_numbers(const std::string& name) const {
     const auto run = find_run(name);
     if (!run || run->is_branch())
-        return numbers;
-    Statement rows = state_->database.prepare(fmt::format("SELECT number FROM {} WHERE mode IN ({}) ORDER BY number",
-                                                          RunTables(*run).points, text_literals(run->modes)));
-    while (rows.step())
-        numbers.push_back(static_cast<std::size_t>(rows.integer(0)));
-    return numbers;
+        return [] { return std::optional<std::size_t>(); };
+    struct Reading {
+        std::shared_ptr<State> state; // outlives the statement
+        Statement rows;
+    };
+    const auto reading = std::make_shared<Reading>(
+        Reading{state_, state_->database.prepare(fmt::format("SELECT number FROM {} WHERE mode IN ({}) ORDER BY number",
+                                                             RunTables(*run).points, text_literals(run->modes)))});
+    return [reading] {
+        return reading->rows.step() ? std::optional(static_cast<std::size_t>(reading->rows.integer(0))) : std::nullopt;
+    };
 }
 
 std::optional<PointRecord> ResultFile::point(const std::string& name, std::size_t number) const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <string>
+#include <utility>
 
 namespace graze {
 
@@ -30,10 +31,16 @@ bool has_left(const std::string& kind, const std::string& label, const std::stri
 constexpr double shortest_resolved_lifetime = 5;
 
 struct Group {
-    std::vector<Stay> stays;
+    std::map<std::pair<std::size_t, bool>, std::size_t> motions; ///< by their returns, and whether they have left
     std::vector<std::size_t> chaotic;
     bool settles = false; ///< some motion has left by settling
 
+    std::vector<Stay> stays() const {
+        std::vector<Stay> all;
+        for (const auto& [of, count] : motions)
+            all.push_back({of.first, of.second, count});
+        return all;
+    }
     bool resolves(const EscapeLaw& law) const { return !settles || law.rate * shortest_resolved_lifetime < 1; }
 };
 
@@ -52,6 +59,8 @@ std::vector<EscapeRate> escape_rates(const StoredRun& run) {
     for (const ResultColumn& coordinate : record.coordinates)
         if (std::ranges::find(record.states, coordinate.name, &ResultColumn::name) == record.states.end())
             parameters.push_back(coordinate.name);
+    if (parameters.size() == record.coordinates.size())
+        return {}; // motions of a group are all alike, and there may be millions of groups
     std::map<std::vector<double>, Group> groups;
     auto rows = run.rows({.columns = {"number", "label", "ending", "cycles"}, .quantities = parameters});
     while (rows.next()) {
@@ -63,14 +72,14 @@ std::vector<EscapeRate> escape_rates(const StoredRun& run) {
         for (std::size_t p = 0; p < parameters.size(); ++p)
             at.push_back(rows.number(4 + p));
         Group& group = groups[at];
-        group.stays.push_back({static_cast<std::size_t>(cycles), has_left(record.kind, label, rows.text(2))});
+        ++group.motions[{static_cast<std::size_t>(cycles), has_left(record.kind, label, rows.text(2))}];
         group.settles = group.settles || has_settled(label);
         if (has_label(label, Label::chaotic))
             group.chaotic.push_back(static_cast<std::size_t>(rows.integer(0)));
     }
     std::vector<EscapeRate> rates;
     for (auto& [at, group] : groups)
-        if (const auto law = escape_law(group.stays); law && group.resolves(*law))
+        if (const auto law = escape_law(group.stays()); law && group.resolves(*law))
             rates.push_back({at, *law, std::move(group.chaotic)});
     return rates;
 }

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace graze {
 
@@ -42,30 +43,67 @@ struct RunOfPart {
     RunRecord record;
 };
 
-/// Where the points of each chain are.
-struct ChainSource {
-    std::uint32_t part = 0, points = 0; ///< how many points it has of the chain, from the first one on
+/// How many points of each chain one part has, chain after chain.
+class ChainCounts {
+public:
+    ChainCounts(const ResultFile& file, const std::string& run, std::size_t length)
+        : next_(file.point_numbers(run)), number_(next_()), length_(length) {}
+
+    /// The next chain of which it has points; none: there are no more.
+    std::optional<std::size_t> chain() const { return number_ ? std::optional(*number_ / length_) : std::nullopt; }
+    /// The number of points of that chain from the first one on. Goes on to the next chain.
+    std::size_t count() {
+        const std::size_t chain = *number_ / length_;
+        std::size_t count = 0;
+        for (; number_ && *number_ / length_ == chain; number_ = next_())
+            count += *number_ % length_ == count ? 1 : 0; // others lack those before them
+        return count;
+    }
+
+private:
+    std::function<std::optional<std::size_t>()> next_;
+    std::optional<std::size_t> number_;
+    std::size_t length_;
 };
 
-std::vector<ChainSource> sources_of(const std::vector<RunOfPart>& parts, const PartedRun& run) {
-    std::vector<ChainSource> sources(run.chains());
-    const std::size_t length = run.chain_length();
-    for (std::uint32_t part = 0; part < parts.size(); ++part) {
-        std::size_t chain = 0;
-        std::uint32_t points = 0;
-        for (const std::size_t number : parts[part].file->point_numbers(run.run().name)) {
-            if (number / length != chain) {
-                chain = number / length;
-                points = 0;
-            }
-            if (chain >= sources.size() || number != chain * length + points)
-                continue; // no point of this run, or one without those before it
-            if (++points > sources[chain].points)
-                sources[chain] = {part, points};
+/// Where the points of a chain are.
+struct ChainSource {
+    std::size_t chain = 0, part = 0, points = 0; ///< how many points the part has of it, from the first one on
+};
+
+/// Gives, chain after chain, the part that has most of its points.
+class ChainSources {
+public:
+    ChainSources(const std::vector<RunOfPart>& parts, const PartedRun& run) {
+        for (const RunOfPart& part : parts) {
+            counts_.emplace_back(*part.file, part.record.name, run.chain_length());
+            wait_for_chain(counts_.size() - 1);
         }
     }
-    return sources;
-}
+
+    std::optional<ChainSource> next() {
+        if (waiting_.empty())
+            return std::nullopt;
+        ChainSource source{waiting_.begin()->first, 0, 0};
+        while (!waiting_.empty() && waiting_.begin()->first == source.chain) {
+            const std::size_t part = waiting_.begin()->second;
+            waiting_.erase(waiting_.begin());
+            if (const std::size_t points = counts_[part].count(); points > source.points)
+                source = {source.chain, part, points};
+            wait_for_chain(part);
+        }
+        return source;
+    }
+
+private:
+    void wait_for_chain(std::size_t part) {
+        if (const auto chain = counts_[part].chain())
+            waiting_.emplace(*chain, part);
+    }
+
+    std::vector<ChainCounts> counts_;
+    std::set<std::pair<std::size_t, std::size_t>> waiting_; ///< the next chain of each part, and the part
+};
 
 class Merger {
 public:
@@ -106,15 +144,14 @@ private:
     bool give_points(const AskedPoints& asked, const PointSink& sink) {
         const std::string& name = asked.run.run().name;
         const std::vector<RunOfPart> parts = with_run(name, asked.fingerprint);
-        const std::vector<ChainSource> sources = sources_of(parts, asked.run);
+        ChainSources sources(parts, asked.run);
         std::vector<PartPoints> points;
         for (const RunOfPart& part : parts)
             points.emplace_back(*part.file, name);
         const std::size_t length = asked.run.chain_length();
-        for (std::size_t chain = 0; chain < sources.size(); ++chain) {
-            const std::size_t done = chain < asked.known.size() ? asked.known[chain].done : 0;
-            for (std::size_t index = done; index < sources[chain].points; ++index) {
-                auto point = points[sources[chain].part].at(chain * length + index);
+        for (auto source = sources.next(); source && source->chain < asked.run.chains(); source = sources.next()) {
+            for (std::size_t index = asked.known.done(source->chain, length); index < source->points; ++index) {
+                auto point = points[source->part].at(source->chain * length + index);
                 if (!point)
                     break; // the file has changed meanwhile
                 sink(point->number, point->result);

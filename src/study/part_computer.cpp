@@ -1,6 +1,5 @@
 #include "graze/study/part_computer.hpp"
 
-#include "graze/study/run_part.hpp"
 #include "graze/study/whole_run.hpp"
 #include "study/dealt_messages.hpp"
 
@@ -11,7 +10,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -29,35 +27,36 @@ constexpr std::chrono::milliseconds between_looks{1};
 /// Work of which parts are computed.
 class ComputedWork {
 public:
-    explicit ComputedWork(std::string text) : text_(std::move(text)) {}
+    ComputedWork(std::string text, const MakeExamination& examination)
+        : text_(std::move(text)), examination_(&examination) {}
 
     /// @param sink receives pieces of the result. @return the rest of it; empty: it was interrupted
     std::string compute(const std::string& part, const PieceSink& sink) {
-        const auto interrupted = [this] { return is_forgotten.load(); };
-        if (is_whole_run(text_))
-            return computed_run(text_, part, interrupted);
-        return computed_points(parted(), part_of(part), interrupted, sink);
+        return computation()(
+            part, [this] { return is_forgotten.load(); }, sink);
     }
 
     std::atomic<bool> is_forgotten = false;
 
 private:
-    const PartedRun& parted() {
+    const PartComputation& computation() {
         const std::lock_guard lock(mutex_);
-        if (!parted_)
-            parted_.emplace(text_);
-        return *parted_;
+        if (!computation_)
+            computation_ = computation_of(text_, *examination_);
+        return computation_;
     }
 
     std::string text_;
+    const MakeExamination* examination_;
     std::mutex mutex_;
-    std::optional<PartedRun> parted_;
+    PartComputation computation_;
 };
 
 /// Computes tasks by threads of its own, while another thread exchanges messages.
 class PartComputer {
 public:
-    PartComputer(Messages& messages, std::size_t threads) : messages_(&messages) {
+    PartComputer(Messages& messages, std::size_t threads, const MakeExamination& examination)
+        : messages_(&messages), examination_(&examination) {
         for (std::size_t thread = 0; thread < threads; ++thread)
             threads_.emplace_back([this] { compute_all(); });
     }
@@ -101,7 +100,7 @@ private:
             DealtMessage message = message_of(received->bytes);
             const std::lock_guard lock(mutex_);
             if (message.what == What::work) {
-                works_[message.work] = std::make_shared<ComputedWork>(std::move(message.bytes));
+                works_[message.work] = std::make_shared<ComputedWork>(std::move(message.bytes), *examination_);
             } else if (message.what == What::task) {
                 tasks_.push_back({works_.at(message.work), std::move(message)});
                 task_came_.notify_one();
@@ -163,6 +162,7 @@ private:
     }
 
     Messages* messages_;
+    const MakeExamination* examination_;
     std::mutex mutex_;
     std::condition_variable task_came_, result_came_;
     std::map<std::size_t, std::shared_ptr<ComputedWork>> works_;
@@ -174,8 +174,24 @@ private:
 
 } // namespace
 
-void compute_parts(Messages& messages, std::size_t threads) {
-    PartComputer(messages, threads).run();
+PartComputation computation_of(const std::string& text, const MakeExamination& examination) {
+    if (is_whole_run(text))
+        return [text](const std::string& part, const std::function<bool()>& interrupted, const PieceSink&) {
+            return computed_run(text, part, interrupted);
+        };
+    if (is_device_solver(text))
+        return [solver = std::make_shared<const DeviceSolver>(device_solver_of(text, examination))](
+                   const std::string& part, const std::function<bool()>& interrupted, const PieceSink&) {
+            return solved_part(*solver, part, interrupted);
+        };
+    return [run = std::make_shared<const PartedRun>(text)](
+               const std::string& part, const std::function<bool()>& interrupted, const PieceSink& sink) {
+        return computed_points(*run, part_of(part), interrupted, sink);
+    };
+}
+
+void compute_parts(Messages& messages, std::size_t threads, const MakeExamination& examination) {
+    PartComputer(messages, threads, examination).run();
 }
 
 } // namespace graze

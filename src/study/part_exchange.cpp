@@ -2,9 +2,7 @@
 
 #include "graze/base/require.hpp"
 
-#include <algorithm>
 #include <chrono>
-#include <span>
 #include <utility>
 
 namespace graze {
@@ -12,29 +10,6 @@ namespace graze {
 namespace {
 
 constexpr std::chrono::milliseconds between_answers{20};
-
-/// Chains that are not complete, in ranges.
-std::vector<ItemRange> missing_chains(const PartedRun& run, std::span<const ChainProgress> known) {
-    std::vector<ItemRange> ranges;
-    for (std::size_t chain = 0; chain < run.chains(); ++chain) {
-        if (chain < known.size() && known[chain].done >= run.chain_length())
-            continue;
-        if (ranges.empty() || ranges.back().last != chain)
-            ranges.push_back({chain, chain});
-        ranges.back().last = chain + 1;
-    }
-    return ranges;
-}
-
-/// Chains, and what of each is there.
-RunPart part_with(ItemRange chains, std::span<const ChainProgress> known) {
-    RunPart part{chains, {}};
-    if (!known.empty())
-        known = known.subspan(chains.first, chains.size());
-    if (std::ranges::any_of(known, [](const ChainProgress& chain) { return chain.done > 0; }))
-        part.known.assign(known.begin(), known.end());
-    return part;
-}
 
 } // namespace
 
@@ -150,16 +125,19 @@ PointsElsewhere points_by(const std::shared_ptr<PartExchange>& parts) {
         return {};
     return [parts](const AskedPoints& asked, const PointSink& sink) {
         const PartedRun& run = asked.run;
-        const std::span<const ChainProgress> known = asked.known;
+        const KnownChains& known = asked.known;
         std::map<std::size_t, PointsReader> begun; // by the first chain of the part
         const auto take = [&](ItemRange chains, const std::string& piece, bool is_last) {
-            const auto reader = begun.try_emplace(chains.first, run, part_with(chains, known)).first;
+            const auto reader = begun.try_emplace(chains.first, run, RunPart{chains, known.of(chains)}).first;
             reader->second.read(piece, is_last, sink);
             if (is_last)
                 begun.erase(reader);
         };
-        return parts->await({run.text(), missing_chains(run, known),
-                             [&](ItemRange chains) { return bytes_of(part_with(chains, known)); }, take},
+        return parts->await({run.text(), known.missing(run.chains()),
+                             [&](ItemRange chains) {
+                                 return bytes_of(RunPart{chains, known.of(chains)});
+                             },
+                             take},
                             asked.interrupted);
     };
 }

@@ -19,7 +19,7 @@ namespace graze {
 namespace {
 
 /// The first bytes of parts and of points; they change with what follows.
-const std::string part_mark = "graze-part-1\n", points_mark = "graze-points-1\n";
+const std::string part_mark = "graze-part-2\n", points_mark = "graze-points-1\n";
 
 std::unique_ptr<SearchFactory> searches_of(const StudyRun& run, const System& system) {
     const MotionRequest& motion = run.motion();
@@ -79,9 +79,9 @@ void describe_result(Bytes& bytes, Result& result) {
           result.samples.times, result.samples.values);
 }
 
-/// @throws InputError unless it is known of each chain of a part what is there, or of none
+/// @throws InputError when more chains are known than the part has
 void require_consistent(const RunPart& part) {
-    if (part.chains.first > part.chains.last || !(part.known.empty() || part.known.size() == part.chains.size()))
+    if (part.chains.first > part.chains.last || part.known.bound() > part.chains.size())
         ByteReader::fail();
 }
 
@@ -128,7 +128,7 @@ std::size_t PartedRun::chain_length() const {
     return state_->plan.chain_length;
 }
 
-bool PartedRun::compute(ItemRange chains, std::span<const ChainProgress> known, const ExecutionOptions& options,
+bool PartedRun::compute(ItemRange chains, const KnownChains& known, const ExecutionOptions& options,
                         const PointSink& sink) const {
     require_room(this->chains(), chains.last, "chains of a part");
     require_room(chains.last, chains.first, "chains before a part");
@@ -143,20 +143,31 @@ bool PartedRun::compute(ItemRange chains, std::span<const ChainProgress> known, 
 
 std::string bytes_of(const RunPart& part) {
     ByteWriter bytes(part_mark);
-    bytes(part.chains.first, part.chains.last, part.known.size());
-    for (const ChainProgress& chain : part.known)
-        bytes(chain.done, chain.regular, chain.state, chain.mode);
+    bytes(part.chains.first, part.chains.last, part.known.ended().size(), part.known.begun().size());
+    for (const auto& [first, last] : part.known.ended())
+        bytes(first, last);
+    for (const auto& [number, chain] : part.known.begun())
+        bytes(number, chain.done, chain.regular, chain.state, chain.mode);
     return bytes.take();
 }
 
 RunPart part_of(std::string_view bytes) {
     ByteReader reader(bytes, part_mark);
     RunPart part;
-    std::size_t known = 0;
-    reader(part.chains.first, part.chains.last, known);
-    for (std::size_t chain = 0; chain < known; ++chain) {
-        ChainProgress& one = part.known.emplace_back();
-        reader(one.done, one.regular, one.state, one.mode);
+    std::size_t ended = 0, begun = 0;
+    reader(part.chains.first, part.chains.last, ended, begun);
+    for (; ended > 0; --ended) {
+        ItemRange range;
+        reader(range.first, range.last);
+        if (range.first > range.last)
+            ByteReader::fail();
+        part.known.end(range);
+    }
+    for (; begun > 0; --begun) {
+        std::size_t number = 0;
+        ChainProgress chain;
+        reader(number, chain.done, chain.regular, chain.state, chain.mode);
+        part.known.begin(number, std::move(chain));
     }
     reader.require_end();
     require_consistent(part);
@@ -167,7 +178,7 @@ std::string computed_points(const PartedRun& run, const RunPart& part, const std
                             const PieceSink& sink, std::chrono::milliseconds between) {
     using Clock = std::chrono::steady_clock;
     require_consistent(part);
-    for (const ChainProgress& chain : part.known)
+    for (const auto& [number, chain] : part.known.begun())
         if (chain.done > 0 && chain.done < run.chain_length() &&
             (chain.state.size() != run.run().model.states.size() || chain.mode >= run.run().model.modes.size()))
             ByteReader::fail();
@@ -191,9 +202,9 @@ PointsReader::PointsReader(const PartedRun& run, RunPart part) : run_(&run), par
     require_consistent(part_);
     if (part_.chains.last > run.chains())
         ByteReader::fail();
-    for (const ChainProgress& chain : part_.known)
-        next_.push_back(std::min(chain.done, run.chain_length()));
     next_.resize(part_.chains.size());
+    for (std::size_t chain = 0; chain < next_.size(); ++chain)
+        next_[chain] = part_.known.done(chain, run.chain_length());
 }
 
 void PointsReader::read(std::string_view piece, bool is_last, const PointSink& sink) {

@@ -1,6 +1,7 @@
 #include "study/stored_progress.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace graze {
 
@@ -20,27 +21,36 @@ bool has_columns_of(const RunRecord& stored, const RunRecord& record) {
 
 } // namespace
 
-std::vector<ChainProgress> progress_of(const ResultFile& file, const PartedRun& parted, std::size_t& done) {
+KnownChains progress_of(const ResultFile& file, const PartedRun& parted, std::size_t& done) {
     const StudyRun& run = parted.run();
     const std::size_t length = parted.chain_length();
-    std::vector<ChainProgress> progress(parted.chains());
+    KnownChains known;
     if (length == 1) { // nothing is carried on
-        for (const std::size_t point : file.point_numbers(run.name))
-            if (point < progress.size()) {
-                progress[point].done = 1;
-                ++done;
+        const auto next = file.point_numbers(run.name);
+        ItemRange neighbours;
+        for (auto point = next(); point && *point < parted.chains(); point = next(), ++done) {
+            if (*point != neighbours.last) {
+                known.end(neighbours);
+                neighbours = {*point, *point};
             }
-        return progress;
+            ++neighbours.last;
+        }
+        known.end(neighbours);
+        return known;
     }
-    for (const PointRecord& point : file.last_points(run.name, length)) {
-        const std::size_t chain = point.number / length;
-        if (chain >= progress.size() || point.result.mode >= run.model.modes.size())
+    const auto next = file.last_points(run.name, length);
+    while (auto point = next()) {
+        const std::size_t chain = point->number / length, there = point->number % length + 1;
+        PointResult& last = point->result;
+        if (chain >= parted.chains() || last.mode >= run.model.modes.size())
             continue; // the point does not belong to this run: its chain is computed anew
-        progress[chain] = {point.number % length + 1, can_be_carried_on(point.result), point.result.state,
-                           point.result.mode};
-        done += progress[chain].done;
+        done += there;
+        if (there == length)
+            known.end({chain, chain + 1});
+        else
+            known.begin(chain, {there, can_be_carried_on(last), std::move(last.state), last.mode});
     }
-    return progress;
+    return known;
 }
 
 bool lacks_orbits(const RunRecord& run, const ResultFile& file) {

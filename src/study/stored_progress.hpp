@@ -3,15 +3,14 @@
 #include "graze/study/run_part.hpp"
 
 #include <cstddef>
-#include <vector>
 
 namespace graze {
 
 // What a result file has of a run that is asked for.
 
-/// The points of each chain that the file has.
+/// The points of the chains that the file has.
 /// @param done is increased by their number
-std::vector<ChainProgress> progress_of(const ResultFile& file, const PartedRun& parted, std::size_t& done);
+KnownChains progress_of(const ResultFile& file, const PartedRun& parted, std::size_t& done);
 
 /// True when a run ended without finding all orbits: it would fail again.
 bool lacks_orbits(const RunRecord& run, const ResultFile& file);

@@ -90,15 +90,14 @@ std::set<std::string> waiting_runs(const Study& study, const std::set<std::strin
 
 /// Computes the chains of a run that are tasks of a part.
 bool compute_chains(const AskedPoints& asked, const SharedRun& shared, const StudyPart& part, const PointSink& sink) {
-    std::vector<ChainProgress> known(asked.known.begin(), asked.known.end());
-    known.resize(asked.run.chains());
-    for (std::size_t chain = 0; chain < known.size(); ++chain)
-        if (!shared.is_in(part, chain))
-            known[chain].done = asked.run.chain_length(); // by others
+    KnownChains known = asked.known;
+    for (std::size_t chain = 0; chain < shared.chains; chain += shared.chains_of_task)
+        if (!shared.is_in(part, chain)) // others compute the task
+            known.end({chain, std::min(chain + shared.chains_of_task, shared.chains)});
     ExecutionOptions options;
     options.jobs = asked.jobs;
     options.interrupted = asked.interrupted;
-    return asked.run.compute({0, known.size()}, known, options, sink);
+    return asked.run.compute({0, asked.run.chains()}, known, options, sink);
 }
 
 std::size_t whole_number(std::string_view text) {
@@ -144,8 +143,8 @@ std::vector<std::string> waiting_runs(const Study& study, const ResultFile* resu
     return {waiting.begin(), waiting.end()};
 }
 
-std::vector<RunReport> run_part(const Study& study, const StudyPart& part, const ResultFile* results, ResultFile& file,
-                                const RunnerOptions& options) {
+PartReports run_part(const Study& study, const StudyPart& part, const ResultFile* results, ResultFile& file,
+                     const RunnerOptions& options) {
     const std::map<std::string, SharedRun> shared = shared_runs(study);
     const std::set<std::string> present = present_runs(study, results), waiting = waiting_runs(study, present);
     RunnerOptions own = options;
@@ -155,7 +154,7 @@ std::vector<RunReport> run_part(const Study& study, const StudyPart& part, const
             own.only.push_back(run);
     file.set_note(part_key, text_of(part));
     store_study(study, file);
-    std::vector<RunReport> reports;
+    PartReports reports{{}, {waiting.begin(), waiting.end()}};
     if (!own.only.empty()) { // otherwise all runs would be meant
         for (const std::string& run : wanted_runs(study, own.only))
             if (const auto record = present.contains(run) ? results->find_run(run) : std::nullopt) {
@@ -172,9 +171,9 @@ std::vector<RunReport> run_part(const Study& study, const StudyPart& part, const
         elsewhere.expected = [&](const StudyRun& run) {
             return is_shared(run) ? shared.at(run.name).points_in(part) : points_of(run);
         };
-        reports = run_study(study, file, own, elsewhere);
+        reports.runs = run_study(study, file, own, elsewhere);
     }
-    if (std::ranges::none_of(reports, [](const RunReport& one) { return one.outcome == RunOutcome::interrupted; }))
+    if (std::ranges::none_of(reports.runs, [](const RunReport& one) { return one.outcome == RunOutcome::interrupted; }))
         file.set_note(part_key, text_of(part) + ended);
     return reports;
 }

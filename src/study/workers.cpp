@@ -1,6 +1,7 @@
 #include "graze/study/workers.hpp"
 
 #include "graze/study/whole_run.hpp"
+#include "graze/study/yield_part.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -28,26 +29,41 @@ Workers::~Workers() {
 }
 
 std::vector<RunReport> Workers::run_study(const Study& study, ResultFile& file, const RunnerOptions& options) {
-    std::atomic<bool> is_broken_off = false;
     RunnerOptions own = options;
     // One more run than can be computed, so that its tasks are there when those of another become few.
     own.jobs = static_cast<int>(std::min((messages_->processes() - 1) * threads_ + 1, most_side_by_side));
-    own.interrupted = [&] { return is_broken_off || (options.interrupted && options.interrupted()); };
     const Elsewhere elsewhere{
         .points = points_by(exchange_), .results = results_by(exchange_, study, file.path()), .only_waits = true};
-    std::future<std::vector<RunReport>> reports =
-        std::async(std::launch::async, [&] { return graze::run_study(study, file, own, elsewhere); });
+    std::vector<RunReport> reports;
+    carry_out(
+        [&](const std::function<bool()>& interrupted) {
+            own.interrupted = interrupted;
+            reports = graze::run_study(study, file, own, elsewhere);
+        },
+        options.interrupted);
+    return reports;
+}
+
+DevicesElsewhere Workers::devices() const {
+    return devices_by(exchange_);
+}
+
+void Workers::carry_out(const std::function<void(const std::function<bool()>& interrupted)>& work,
+                        const std::function<bool()>& interrupted) {
+    std::atomic<bool> is_broken_off = false;
+    std::future<void> done =
+        std::async(std::launch::async, [&] { work([&] { return is_broken_off || (interrupted && interrupted()); }); });
     try {
-        while (reports.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+        while (done.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
             if (!dealer_.look())
-                reports.wait_for(between_deals);
+                done.wait_for(between_deals);
         dealer_.look(); // so that what is not wanted any more is not computed
     } catch (...) {
         is_broken_off = true;
-        reports.wait();
+        done.wait();
         throw;
     }
-    return reports.get();
+    done.get();
 }
 
 } // namespace graze

@@ -140,4 +140,19 @@ void read_devices(const AskedDevices& devices, ItemRange range, std::string_view
         sink(range.first + i, all[i]);
 }
 
+DevicesElsewhere devices_by(const std::shared_ptr<PartExchange>& parts) {
+    if (!parts)
+        return {};
+    return [parts](const AskedDevices& devices, const std::function<bool()>& interrupted, const DeviceSink& sink) {
+        const auto take = [&](ItemRange range, const std::string& solved, bool) {
+            read_devices(devices, range, solved, sink);
+        };
+        return parts->await({bytes_of(devices.solver),
+                             {{0, devices.count}},
+                             [&](ItemRange range) { return part_of(devices, range); },
+                             take},
+                            interrupted);
+    };
+}
+
 } // namespace graze

@@ -75,7 +75,7 @@ using Sink = std::function<void(std::size_t, const PointStart&, PointResult&)>;
 struct Execution {
     const Plan& plan;
     const SearchFactory& searches;
-    std::span<const ChainProgress> progress;
+    const KnownChains& known;
     const std::function<PointStart(std::size_t)> start;
     const std::function<bool()> interrupted;
     const Sink sink;
@@ -103,14 +103,12 @@ public:
             if (chain_ >= plan.chains)
                 return nullptr;
             has_chain_ = true;
-            index_ = 0;
+            index_ = execution_->known.done(chain_, plan.chain_length);
             carried_ = false;
-            if (chain_ < execution_->progress.size()) {
-                const ChainProgress& done = execution_->progress[chain_];
-                index_ = done.done;
-                carried_ = done.done > 0 && done.regular;
-                state_ = done.state;
-                mode_ = done.mode;
+            if (const ChainProgress* begun = execution_->known.begun(chain_)) {
+                carried_ = begun->done > 0 && begun->regular;
+                state_ = begun->state;
+                mode_ = begun->mode;
             }
         }
         if (execution_->must_stop())
@@ -207,22 +205,21 @@ void work_through(Execution& execution, InstructionSet set, std::size_t slots) {
 
 } // namespace
 
-bool execute(const Plan& plan, const SearchFactory& searches, std::span<const ChainProgress> progress,
-             const ExecutionOptions& options, const Sink& sink) {
+bool execute(const Plan& plan, const SearchFactory& searches, const KnownChains& known, const ExecutionOptions& options,
+             const Sink& sink) {
     if (!plan.start || !sink)
         throw InputError("a plan needs a function for initial values and one for results", "give both functions");
-    if (!progress.empty())
-        require_size(progress.size(), plan.chains, "chains of progress");
-    for (const ChainProgress& chain : progress)
+    require_room(plan.chains, known.bound(), "chains of progress");
+    for (const auto& [number, chain] : known.begun())
         require_room(plan.chain_length, chain.done, "points of a chain done");
     if (options.jobs < 1)
         throw InputError(fmt::format("{} jobs cannot do anything", options.jobs), "give at least one");
     const Turns turns;
     Execution execution{
-        plan, searches, progress, turns.taking(plan.start), turns.asking(options.interrupted), turns.taking(sink)};
+        plan, searches, known, turns.taking(plan.start), turns.asking(options.interrupted), turns.taking(sink)};
     std::size_t chains = 0;
-    for (std::size_t c = 0; c < plan.chains; ++c)
-        chains += c >= progress.size() || progress[c].done < plan.chain_length ? 1 : 0;
+    for (const ItemRange& missing : known.missing(plan.chains))
+        chains += missing.size();
     if (chains == 0)
         return true;
     const auto jobs = std::min(static_cast<std::size_t>(std::max(options.jobs, 1)), chains);

@@ -39,6 +39,12 @@ from = { x = -0.07 }
 kind = "continue"
 start = { run = "orbit" }
 along = { omega = [3.9, 4.1] }
+[runs.far]
+kind = "continue"
+start = { run = "orbit" }
+along = { omega = [3, 40] }
+steps = 100000
+step = { largest = 1e-6 }
 [runs.long]
 kind = "sweep"
 vary = { omega = { from = 2.7, to = 2.9, points = 60 }, sigma = { from = 1.2, to = 1.3, points = 80 } }
@@ -59,7 +65,7 @@ points() { # FOLDER: how many the long run has so far
     "$graze" export "$1" --sql "SELECT count(*) AS points FROM points_long" --format csv 2>/dev/null | tail -n 1 || true
 }
 begin() { # FOLDER PROCESSES: in the background, until it has some points; leaves the process of mpirun in `started`
-    mpirun -n "$2" "$graze" run study.toml --only long --output "$1" --no-pictures >"$1.log" 2>&1 &
+    mpirun -n "$2" "$graze" run study.toml --only "${3:-long}" --output "$1" --no-pictures >"$1.log" 2>&1 &
     started=$!
     local before look
     before=$(points "$1")
@@ -94,7 +100,7 @@ for way in "LD_LIBRARY_PATH=$PWD/empty OMPI_COMM_WORLD_SIZE=2 OMPI_COMM_WORLD_RA
 done
 command -v mpirun >/dev/null || exit 77
 
-"$graze" run study.toml --output alone --no-pictures --quiet
+"$graze" run study.toml --only "$short,long" --output alone --no-pictures --quiet
 for run in "${runs[@]}" long; do
     "$graze" export alone --run "$run" --format csv --output "alone/$run.csv"
 done
@@ -107,6 +113,32 @@ done
 mpirun -n 2 "$graze" run study.toml --only "$short" --output threads --no-pictures --quiet --jobs 3 >threads.log 2>&1 || fail "threads"
 same threads "${runs[@]}"
 
+# Yields have the same devices, whoever solves for them.
+"$graze" run mems-switch --only free,no_impact --output switch --no-pictures --quiet
+"$graze" design mems-switch --show | sed 's/^within.*/&\ndevices = 500\n\n[points]\ncurve = 5\nplane = 4/' >switch.toml
+yields() { # FOLDER COMMAND...
+    mkdir "$1"
+    "${@:2}" "$graze" tolerance switch no_impact:GR1 --vary delta=1%,omega=0.002 --within 0.19: --devices 3000 \
+        --format json --output "$1/tolerance.json" 2>>yields.log || fail "$1: tolerance: code $?"
+    "${@:2}" "$graze" design switch.toml --output "$1/design" --no-pictures --quiet 2>>yields.log || fail "$1: design: code $?"
+    "${@:2}" "$graze" layout mems-switch-device --yield 2 --folder "$1/wafers" >"$1/wafers.txt" 2>>yields.log ||
+        fail "$1: layout: code $?"
+    sed -i "s/$1//" "$1/wafers.txt"
+    rm "$1"/*/results.sqlite* # which have times
+}
+yields yields
+for count in 1 3; do
+    yields "yields$count" mpirun -n $count
+    diff -r yields "yields$count" >yields.log || fail "$count processes: another yield"
+done
+mpirun -n 3 "$graze" tolerance switch no_impact:GR1 --vary delta=1% --devices 100000000 >stopped.txt 2>stopped.log &
+started=$!
+sleep 2 # it takes hours
+processes_of "$started"
+kill -TERM "${children[0]}"
+code=0
+wait "$started" || code=$?
+[[ $code == 143 && $(grep -c "devices were made" stopped.log) == 1 ]] || fail "SIGTERM to a yield: code $code"
 # mpirun is killed, then a process that computes, then process 0; each time another number of processes goes on.
 begin killed 3
 kill -KILL "$started"
@@ -124,11 +156,13 @@ grep -q "gone on with" killed.log || fail "after $before points it began again"
 same killed long
 
 # A signal that process 0 gets ends all in order.
-begin ended 3
+rm -rf "$TMPDIR"/graze-* # of processes that were killed
+begin ended 3 long,far
 processes_of "$started"
 kill -TERM "${children[0]}"
 ended "$started" ended
 [[ $code == 143 ]] && grep -q "what was computed is kept" ended.log || fail "SIGTERM: code $code"
+compgen -G "$TMPDIR/graze-*" >/dev/null && fail "SIGTERM left $(echo "$TMPDIR"/graze-*)"
 # mpirun passes on what it gets, and has a code of its own.
 begin ended 2
 kill -INT "$started"

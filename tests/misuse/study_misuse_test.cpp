@@ -105,8 +105,8 @@ void result_files(WrongUses& wrong) {
     of("remove_unknown", [](Results& r) { r.file->remove_run("unknown"); });
     of("complete_unknown", [](Results& r) { r.file->complete_run("unknown"); });
     of("point_count_unknown", [](Results& r) { keep(r.file->point_count("unknown")); });
-    of("last_points_unknown", [](Results& r) { keep(r.file->last_points("unknown", 2)); });
-    of("last_points_of_empty_chains", [](Results& r) { keep(r.file->last_points("sweep", 0)); });
+    of("last_points_unknown", [](Results& r) { keep(r.file->last_points("unknown", 2)()); });
+    of("last_points_of_empty_chains", [](Results& r) { keep(r.file->last_points("sweep", 0)()); });
     of("point_unknown", [](Results& r) { keep(r.file->point("unknown", 0)); });
     of("nearest_unknown", [](Results& r) { keep(r.file->nearest_point("unknown", "amplitude", 1, {})); });
     of("nearest_coordinate_unknown", [](Results& r) { keep(r.file->nearest_point("sweep", "unknown", 1, {})); });

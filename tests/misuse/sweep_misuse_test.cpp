@@ -129,7 +129,7 @@ struct Execution {
                   const Model model = oscillator();
                   return PointStart{model.parameter_values(), model.initial_state(), 0};
               }};
-    std::vector<ChainProgress> progress;
+    KnownChains known;
     ExecutionOptions options;
     std::function<void(std::size_t, const PointStart&, PointResult&)> sink = [](auto&&...) {};
 };
@@ -137,7 +137,7 @@ struct Execution {
 void executions(WrongUses& wrong) {
     const auto execution = wrong.spoiled<Execution>(
         [] { return Execution(); },
-        {{"execute", [](Execution& e) { keep(execute(e.plan, *e.factory, e.progress, e.options, e.sink)); }}});
+        {{"execute", [](Execution& e) { keep(execute(e.plan, *e.factory, e.known, e.options, e.sink)); }}});
     execution("without_start", [](Execution& e) { e.plan.start = {}; });
     execution("without_sink", [](Execution& e) { e.sink = {}; });
     execution("no_chains", [](Execution& e) { e.plan.chains = 0; });
@@ -149,14 +149,16 @@ void executions(WrongUses& wrong) {
     for (const int jobs : {0, -1, std::numeric_limits<int>::min()})
         execution("jobs_" + std::to_string(jobs), [jobs](Execution& e) { e.options.jobs = jobs; });
     execution("no_instruction_set", [](Execution& e) { e.options.instruction_set = static_cast<InstructionSet>(9); });
-    for (const std::size_t length : {1, 3})
-        execution("progress_" + std::to_string(length), [length](Execution& e) { e.progress.resize(length); });
-    execution("progress_done_too_much", [](Execution& e) { e.progress = {{.done = 3}, {.done = 0}}; });
-    execution("progress_done_huge", [](Execution& e) { e.progress = {{.done = huge}, {.done = 0}}; });
+    execution("progress_of_no_chain", [](Execution& e) { e.known.begin(2, {.done = 1}); });
+    execution("progress_end_of_no_chain", [](Execution& e) { e.known.end({1, 3}); });
+    execution("progress_end_huge", [](Execution& e) { e.known.end({0, huge}); });
+    execution("progress_end_reversed", [](Execution& e) { e.known.end({2, 1}); });
+    execution("progress_done_too_much", [](Execution& e) { e.known.begin(0, {.done = 3}); });
+    execution("progress_done_huge", [](Execution& e) { e.known.begin(0, {.done = huge}); });
     const auto carried = [&](const std::string& name, const ChainProgress& first) {
         execution("progress_" + name, [first](Execution& e) {
             e.plan.carry = true;
-            e.progress = {first, {}};
+            e.known.begin(0, first);
         });
     };
     carried("without_state", {.done = 1, .regular = true});

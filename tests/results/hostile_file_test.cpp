@@ -85,7 +85,10 @@ protected:
             file.set_patience(200ms);
             for (const RunRecord& run : file.runs()) {
                 attempt([&] { stored_model(run); });
-                attempt([&] { file.last_points(run.name, 5); });
+                attempt([&] {
+                    for (const auto next = file.last_points(run.name, 5); next();) {
+                    }
+                });
                 attempt([&] { file.point(run.name, 3); });
                 attempt([&] { file.nearest_point(run.name, "x", 3, std::nullopt); });
                 attempt([&] { file.orbits(run.name, false); });

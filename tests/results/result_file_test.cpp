@@ -178,11 +178,17 @@ TEST_F(ResultFileTest, FindsNearestAndLastPoints) {
     EXPECT_EQ(file.nearest_point("r", "V", 4.5, 1)->number, 5u);
     EXPECT_EQ(file.nearest_point("r", "V", 99, {})->number, 11u);
     EXPECT_FALSE(file.nearest_point("r", "W", 1, {}));
-    const auto last = file.last_points("r", 10);
-    ASSERT_EQ(last.size(), 2u);
-    EXPECT_EQ(last[0].number, 6u);
-    EXPECT_EQ(last[1].number, 11u);
-    EXPECT_EQ(last[1].result.state, point_numbered(11).result.state);
+    const auto next = file.last_points("r", 10);
+    EXPECT_EQ(next()->number, 6u);
+    const auto last = next();
+    ASSERT_TRUE(last);
+    EXPECT_EQ(last->number, 11u);
+    EXPECT_EQ(last->result.state, point_numbered(11).result.state);
+    EXPECT_FALSE(next());
+    const auto next_number = file.point_numbers("r");
+    for (const std::size_t number : {0, 1, 2, 3, 4, 5, 6, 10, 11})
+        EXPECT_EQ(next_number(), number);
+    EXPECT_FALSE(next_number());
 }
 
 TEST_F(ResultFileTest, ARunBegunAgainReplacesTheOldOne) {

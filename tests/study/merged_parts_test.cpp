@@ -213,7 +213,8 @@ TEST_F(MergedPartsTest, LeaveOutPointsWithoutThoseBeforeThem) {
         damaged.flush();
         ResultFile results = written("merged");
         merge_parts(study, {damaged}, results, {});
-        EXPECT_THAT(results.point_numbers("one"), ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 12, 13, 14, 15, 16, 17));
+        EXPECT_THAT(testing::point_numbers_of(results, "one"),
+                    ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 12, 13, 14, 15, 16, 17));
         run_study(study, results, {});
         EXPECT_EQ(testing::bits_of(results), whole(study));
     }

@@ -56,16 +56,13 @@ struct Parts {
     std::size_t done = 0;
     std::vector<std::string> texts{}, bytes{};
 
-    bool operator()(const PartedRun& run, std::span<const ChainProgress> known, const PointSink& sink) {
+    bool operator()(const PartedRun& run, const KnownChains& known, const PointSink& sink) {
         const PartedRun other(texts.emplace_back(run.text()));
         for (std::size_t last = run.chains(); last > 0;) {
             if (done++ >= stop_after)
                 return false;
             const std::size_t first = last - std::min(size, last);
-            RunPart part{{first, last}, {}};
-            if (!known.empty())
-                part.known.assign(known.begin() + static_cast<std::ptrdiff_t>(first),
-                                  known.begin() + static_cast<std::ptrdiff_t>(last));
+            const RunPart part{{first, last}, known.of({first, last})};
             const std::string asked = bytes_of(part);
             bytes.push_back(computed_points(other, part_of(asked), {}));
             read_points(run, part, bytes.back(), sink);
@@ -174,24 +171,35 @@ TEST_F(RunPartTest, RefusesWhatIsNoPart) {
         EXPECT_THAT(refusal(whole, bytes.substr(0, size)), HasSubstr("no part of a computation")) << size;
     EXPECT_THAT(refusal({{0, 2}, {}}, bytes), HasSubstr("no part of a computation"));
     EXPECT_THAT(refusal({{0, std::size_t{1} << 62}, {}}, bytes), HasSubstr("no part of a computation"));
-    EXPECT_THAT(refusal({{0, 3}, std::vector<ChainProgress>(3, {1, false, {}, 0})}, bytes),
-                HasSubstr("no part of a computation"));
-    EXPECT_THAT(refusal({{0, 3}, std::vector<ChainProgress>(2)}, bytes), HasSubstr("no part of a computation"));
+    KnownChains begun, beyond, ended;
+    begun.begin(1, {1, false, {}, 0});
+    beyond.begin(3, {1, false, {}, 0});
+    ended.end({1, 2});
+    for (const KnownChains& known : {begun, beyond, ended})
+        EXPECT_THAT(refusal({{0, 3}, known}, bytes), HasSubstr("no part of a computation"));
     EXPECT_THAT(refusal({{3, 0}, {}}, bytes), HasSubstr("no part of a computation"));
     EXPECT_EQ(points, 36u); // nothing of what is refused is given
 
-    EXPECT_THAT(testing::message_of([] { part_of("graze-part-2\n"); }), HasSubstr("no part of a computation"));
-    const std::string part = bytes_of({{1, 3}, std::vector<ChainProgress>(2)});
-    EXPECT_EQ(part_of(part).known.size(), 2u);
+    EXPECT_THAT(testing::message_of([] { part_of("graze-part-1\n"); }), HasSubstr("no part of a computation"));
+    KnownChains both = ended;
+    both.begin(0, {4, true, {0.5}, 1});
+    const std::string part = bytes_of({{1, 3}, both});
+    const RunPart read = part_of(part);
+    EXPECT_EQ(read.chains.last, 3u);
+    EXPECT_TRUE(read.known.has_ended(1));
+    ASSERT_TRUE(read.known.begun(0));
+    EXPECT_EQ(read.known.begun(0)->state, std::vector<double>{0.5});
+    for (std::size_t size = 0; size < part.size(); ++size)
+        EXPECT_THAT(testing::message_of([&] { part_of(part.substr(0, size)); }), HasSubstr("no part of a computation"));
     EXPECT_THAT(testing::message_of([&] { part_of(part + "x"); }), HasSubstr("no part of a computation"));
     EXPECT_THAT(testing::message_of([&] { computed_points(run, {{2, 4}, {}}, {}); }), HasSubstr("chains of a part"));
     EXPECT_THAT(testing::message_of([&] {
-                    computed_points(run, {{0, 1}, {{1, false, {}, 0}}}, {});
+                    computed_points(run, {{0, 3}, begun}, {});
                 }),
                 HasSubstr("no part of a computation"));
 
     EXPECT_THAT(testing::message_of([&] {
-                    computed_points(run, {{0, 3}, std::vector<ChainProgress>(2)}, {});
+                    computed_points(run, {{0, 3}, beyond}, {});
                 }),
                 HasSubstr("no part of a computation"));
 

@@ -35,6 +35,14 @@ inline std::string bits_of(const ResultFile& file) {
     return all;
 }
 
+inline std::vector<std::size_t> point_numbers_of(const ResultFile& file, const std::string& run) {
+    std::vector<std::size_t> numbers;
+    const auto next = file.point_numbers(run);
+    while (const auto number = next())
+        numbers.push_back(*number);
+    return numbers;
+}
+
 /// A study in a folder of its own, with the results of the runs that are done.
 class StudyResults {
 public:

@@ -49,7 +49,7 @@ protected:
     std::map<std::string, RunReport> reports_of(const StudyPart& part, ResultFile& file,
                                                 const RunnerOptions& options = {}) const {
         std::map<std::string, RunReport> reports;
-        for (RunReport& report : run_part(study_, part, nullptr, file, options))
+        for (RunReport& report : run_part(study_, part, nullptr, file, options).runs)
             reports.emplace(report.name, report);
         return reports;
     }
@@ -81,7 +81,7 @@ TEST_F(StudyParts, HaveEachTaskOnce) {
             for (const auto& [name, report] : reports)
                 if (name == "sweep" || name == "motions") {
                     EXPECT_EQ(report.outcome, count == 1 ? RunOutcome::complete : RunOutcome::partial) << name;
-                    for (const std::size_t point : file.point_numbers(name))
+                    for (const std::size_t point : testing::point_numbers_of(file, name))
                         points[name].insert(point);
                 } else {
                     EXPECT_EQ(report.outcome, RunOutcome::complete) << name;
@@ -103,7 +103,8 @@ TEST_F(StudyParts, HaveEachTaskOnce) {
 
 TEST_F(StudyParts, DealOutNeighboursInTurn) {
     ResultFile file(path_, ResultFile::Access::write);
-    run_part(study_, {2, 3}, nullptr, file, {.only = {"sweep"}});
+    const PartReports reports = run_part(study_, {2, 3}, nullptr, file, {.only = {"sweep"}});
+    EXPECT_THAT(reports.waiting, ElementsAre("after", "follows"));
     auto chains = file.query("SELECT DISTINCT chain FROM points_sweep ORDER BY chain");
     for (const std::int64_t chain : {1, 4, 7, 10}) {
         ASSERT_TRUE(chains.next());
@@ -119,7 +120,9 @@ TEST_F(StudyParts, LeaveWhatNeedsTheRunsOfSeveralPartsUntilTheseAreThere) {
     EXPECT_THAT(waiting_runs(study_, &results), IsEmpty());
     ResultFile file(path_, ResultFile::Access::write);
     std::vector<std::string> names;
-    for (const RunReport& report : run_part(study_, {1, 1}, &results, file, {})) {
+    const PartReports reports = run_part(study_, {1, 1}, &results, file, {});
+    EXPECT_THAT(reports.waiting, IsEmpty());
+    for (const RunReport& report : reports.runs) {
         names.push_back(report.name);
         EXPECT_TRUE(report.complete()) << report.name;
     }

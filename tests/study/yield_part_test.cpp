@@ -2,12 +2,15 @@
 
 #include "base/message_of.hpp"
 #include "branch/driven_oscillator.hpp"
+#include "messages_in_threads.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <bit>
 #include <cstdint>
+#include <functional>
 #include <limits>
 
 namespace graze::yield_part_test {
@@ -112,6 +115,54 @@ TEST_F(YieldPartTest, KeepsWhatWasSolvedForWhenItIsInterrupted) {
     EXPECT_EQ(some.devices[49].outcome, DeviceOutcome::not_made);
     EXPECT_NE(some.devices[50].outcome, DeviceOutcome::not_made);
     EXPECT_EQ(solved_part(device_solver_of(text_), part_, [] { return true; }), "");
+}
+
+TEST_F(YieldPartTest, OtherProcessesSolveForTheDevices) {
+    const Yield whole = yield();
+    for (const std::size_t count : {1, 2, 3}) {
+        testing::WorkersInThreads workers(count, count == 2 ? 2 : 1);
+        settings_.elsewhere = workers->devices();
+        Yield found;
+        std::size_t told = 0;
+        settings_.progress = [&](std::size_t devices) { told = devices; };
+        workers->carry_out(
+            [&](const std::function<bool()>& interrupted) {
+                settings_.interrupted = interrupted;
+                found = yield();
+            },
+            {});
+        expect_same(found, whole);
+        EXPECT_EQ(told, settings_.devices);
+    }
+}
+
+TEST_F(YieldPartTest, OtherProcessesEndWhenTheYieldIsInterrupted) {
+    testing::WorkersInThreads workers(2);
+    settings_.devices = 5000;
+    settings_.elsewhere = workers->devices();
+    std::atomic<bool> is_interrupted = false;
+    settings_.progress = [&](std::size_t devices) { is_interrupted = devices >= 7; };
+    Yield some;
+    workers->carry_out(
+        [&](const std::function<bool()>& interrupted) {
+            settings_.interrupted = interrupted;
+            some = yield();
+        },
+        [&] { return is_interrupted.load(); });
+    EXPECT_TRUE(some.interrupted);
+    EXPECT_GE(some.made, 7U);
+    EXPECT_LT(some.made, settings_.devices);
+    // What fails there, or here, is told here; they go on with other work.
+    EXPECT_THAT(testing::message_of([&] {
+                    workers->carry_out([](const std::function<bool()>&) { throw InputError("no room", "make some"); },
+                                       {});
+                }),
+                HasSubstr("no room"));
+    settings_.devices = 20;
+    settings_.progress = {};
+    is_interrupted = false;
+    workers->carry_out([&](const std::function<bool()>&) { some = yield(); }, {});
+    EXPECT_FALSE(some.interrupted);
 }
 
 TEST_F(YieldPartTest, ASolverIsWrittenAsItWasRead) {

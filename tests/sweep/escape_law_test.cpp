@@ -6,6 +6,8 @@
 
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 namespace graze::escape_law_test {
@@ -45,6 +47,26 @@ TEST(EscapeLaw, RateOfAKnownLawLiesWithinItsError) {
                 }
     EXPECT_GE(all, 190); // a constant rate is rejected once in ten cases, and then accepted later
     EXPECT_GE(within, 0.9 * all);
+}
+
+TEST(EscapeLaw, MotionsMayBeCounted) {
+    Draws draws;
+    const std::vector<Stay> stays = stays_of(draws, 5000, 0.05, 60, 3);
+    std::map<std::pair<std::size_t, bool>, std::size_t> counts;
+    for (const Stay& stay : stays)
+        ++counts[{stay.cycles, stay.left}];
+    std::vector<Stay> counted{{4, true, 0}};
+    for (const auto& [of, motions] : counts)
+        counted.push_back({of.first, of.second, motions});
+    ASSERT_LT(counted.size(), 100u);
+    const auto one = escape_law(stays), other = escape_law(counted);
+    ASSERT_TRUE(one && other);
+    EXPECT_EQ(one->rate, other->rate);
+    EXPECT_EQ(one->error, other->error);
+    EXPECT_EQ(one->from, other->from);
+    EXPECT_EQ(one->left, other->left);
+    EXPECT_EQ(one->remaining, other->remaining);
+    EXPECT_GT(one->remaining, 0u);
 }
 
 TEST(EscapeLaw, ReturnsBeforeTheLawAreExcluded) {

@@ -38,10 +38,9 @@ struct Setting {
         };
     }
 
-    std::map<std::size_t, PointResult> run(const ExecutionOptions& options,
-                                           std::span<const ChainProgress> progress = {}) {
+    std::map<std::size_t, PointResult> run(const ExecutionOptions& options, const KnownChains& known = {}) {
         std::map<std::size_t, PointResult> results;
-        EXPECT_TRUE(execute(plan, *searches, progress, options,
+        EXPECT_TRUE(execute(plan, *searches, known, options,
                             [&](std::size_t point, const PointStart&, auto& result) { results[point] = result; }));
         return results;
     }
@@ -83,13 +82,14 @@ TEST(Plan, ExecutionResumesAnywhere) {
     Setting setting(2, 3, true);
     const auto whole = setting.run({});
     for (std::size_t done = 0; done <= 3; ++done) {
-        std::vector<ChainProgress> progress(2);
-        progress[1].done = done;
-        if (done > 0) {
+        KnownChains known;
+        if (done == 3) {
+            known.end({1, 2});
+        } else if (done > 0) {
             const PointResult& last = whole.at(3 + done - 1);
-            progress[1] = {done, can_be_carried_on(last), last.state, last.mode};
+            known.begin(1, {done, can_be_carried_on(last), last.state, last.mode});
         }
-        auto rest = setting.run({}, progress);
+        auto rest = setting.run({}, known);
         EXPECT_EQ(rest.size(), 6 - done);
         for (std::size_t point = 3; point < 3 + done; ++point)
             rest[point] = whole.at(point);

@@ -155,10 +155,10 @@ public:
 
     /// Number of points that a run has so far.
     std::size_t point_count(const std::string& run) const;
-    /// The last point of each chain (number / chain_length) that has points, without samples.
-    std::vector<PointRecord> last_points(const std::string& run, std::size_t chain_length) const;
-    /// The numbers of the points that a run has, in order, without those in a mode that it does not know.
-    std::vector<std::size_t> point_numbers(const std::string& run) const;
+    /// The last point of each chain (number / chain_length) that has points, without samples, in order: see `points`.
+    std::function<std::optional<PointRecord>()> last_points(const std::string& run, std::size_t chain_length) const;
+    /// The numbers of the points that a run has, in order, without those in a mode that it does not know: see `points`.
+    std::function<std::optional<std::size_t>()> point_numbers(const std::string& run) const;
     /// One point with its samples.
     std::optional<PointRecord> point(const std::string& run, std::size_t number) const;
     /// Gives all points of a run with their samples to a function, one by one in the order of their numbers.

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -14,10 +13,10 @@ namespace graze {
 /// A run of motions whose points somebody else is asked for.
 struct AskedPoints {
     const PartedRun& run;
-    const std::string& fingerprint;       ///< of the run, see RunRecord
-    std::span<const ChainProgress> known; ///< what of each chain is there
-    int jobs;                             ///< threads that may be used
-    std::function<bool()> interrupted;    ///< asked now and then; true: it has to end soon
+    const std::string& fingerprint;    ///< of the run, see RunRecord
+    const KnownChains& known;          ///< what of its chains is there
+    int jobs;                          ///< threads that may be used
+    std::function<bool()> interrupted; ///< asked now and then; true: it has to end soon
 };
 
 /// A run of another kind that somebody else is asked for.

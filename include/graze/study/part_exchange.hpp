@@ -1,7 +1,7 @@
 #pragma once
 
+#include "graze/base/item_range.hpp"
 #include "graze/study/elsewhere.hpp"
-#include "graze/study/item_range.hpp"
 
 #include <condition_variable>
 #include <cstddef>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "graze/study/item_range.hpp"
+#include "graze/base/item_range.hpp"
 
 #include <cstddef>
 #include <deque>

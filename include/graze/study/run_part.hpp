@@ -1,13 +1,12 @@
 #pragma once
 
-#include "graze/study/item_range.hpp"
+#include "graze/base/item_range.hpp"
 #include "graze/study/runner.hpp"
 
 #include <chrono>
 #include <cstddef>
 #include <functional>
 #include <memory>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,10 +37,10 @@ public:
     std::size_t chain_length() const;
 
     /// Computes the points of some chains.
-    /// @param known what of each of these chains is there; empty: nothing
+    /// @param known what of these chains is there; they are numbered from 0 on there
     /// @param sink receives the points, in order within each chain; called by one thread at a time
     /// @return false if it was stopped
-    bool compute(ItemRange chains, std::span<const ChainProgress> known, const ExecutionOptions& options,
+    bool compute(ItemRange chains, const KnownChains& known, const ExecutionOptions& options,
                  const PointSink& sink) const;
 
 private:
@@ -49,10 +48,10 @@ private:
     std::unique_ptr<const State> state_;
 };
 
-/// What is to be computed by somebody else, in bytes: some chains of a run, and what of each is there.
+/// What is to be computed by somebody else, in bytes: some chains of a run, and what of them is there.
 struct RunPart {
     ItemRange chains;
-    std::vector<ChainProgress> known{}; ///< empty: nothing is there
+    KnownChains known{}; ///< the chains are numbered from 0 on there
 };
 std::string bytes_of(const RunPart& part);
 /// @throws InputError when the bytes are none of `bytes_of`

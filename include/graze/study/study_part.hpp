@@ -40,14 +40,19 @@ bool has_ended(const ResultFile& file);
 /// @param results that are there already; null: none
 std::vector<std::string> waiting_runs(const Study& study, const ResultFile* results);
 
+/// What has come of a part.
+struct PartReports {
+    std::vector<RunReport> runs{};      ///< that it has something of; one is `partial` if it is shared with other parts
+    std::vector<std::string> waiting{}; ///< see waiting_runs
+};
+
 /// Carries out a part of a study, and goes on where it was interrupted. Runs that `results` have are left out, and
 /// those that other runs need are taken from there. A run that is no task of this part, but that one of its tasks
 /// needs, is computed by this part as well.
 /// @param results that are there already; null: none
 /// @param file of the part
-/// @return reports of the runs that it has something of; a run is `partial` if it is shared with other parts
 /// @throws InputError as run_study
-std::vector<RunReport> run_part(const Study& study, const StudyPart& part, const ResultFile* results, ResultFile& file,
-                                const RunnerOptions& options);
+PartReports run_part(const Study& study, const StudyPart& part, const ResultFile* results, ResultFile& file,
+                     const RunnerOptions& options);
 
 } // namespace graze

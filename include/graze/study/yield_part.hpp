@@ -1,9 +1,11 @@
 #pragma once
 
+#include "graze/base/item_range.hpp"
 #include "graze/branch/device_solver.hpp"
-#include "graze/study/item_range.hpp"
+#include "graze/study/part_exchange.hpp"
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -33,5 +35,9 @@ std::string solved_part(const DeviceSolver& solver, std::string_view part, const
 /// Gives the devices of a part, all bits of them, to `sink`.
 /// @throws InputError, before any device is given, when the bytes are none of `solved_part` of this part
 void read_devices(const AskedDevices& devices, ItemRange range, std::string_view bytes, const DeviceSink& sink);
+
+/// For settings of yields: has devices solved for by whoever empties the exchange; none without an exchange, for
+/// threads of this process to do it.
+DevicesElsewhere devices_by(const std::shared_ptr<PartExchange>& parts);
 
 } // namespace graze

@@ -6,10 +6,11 @@
 
 namespace graze {
 
-/// The lifetime of one of many motions in a chaotic transient, or in another region that motions leave at random.
+/// The lifetime of motions in a chaotic transient, or in another region that motions leave at random.
 struct Stay {
-    std::size_t cycles = 0; ///< number of observed returns
-    bool left = false;      ///< true if the motion left after these; false if it was still there
+    std::size_t cycles = 0;  ///< number of observed returns
+    bool left = false;       ///< true if the motions left after these; false if they were still there
+    std::size_t motions = 1; ///< number of motions of which that is so
 };
 
 /// The law of escape from a chaotic transient: motions leave at a rate that does not depend on the time they have

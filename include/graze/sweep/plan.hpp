@@ -1,11 +1,11 @@
 #pragma once
 
+#include "graze/sweep/known_chains.hpp"
 #include "graze/sweep/point_search.hpp"
 
 #include <atomic>
 #include <cstddef>
 #include <functional>
-#include <span>
 #include <vector>
 
 namespace graze {
@@ -32,14 +32,6 @@ struct Plan {
     std::size_t points() const { return chains * chain_length; }
 };
 
-/// The state of one chain after an earlier, interrupted execution.
-struct ChainProgress {
-    std::size_t done = 0;      ///< number of completed points
-    bool regular = false;      ///< whether the last point can be carried on from
-    std::vector<double> state; ///< final state of the last point
-    std::size_t mode = 0;
-};
-
 struct ExecutionOptions {
     int jobs = 1; ///< number of threads
     InstructionSet instruction_set = best_instruction_set();
@@ -52,13 +44,12 @@ struct ExecutionOptions {
 bool can_be_carried_on(const PointResult& result);
 
 /// Runs the points of a plan on several threads, and in SIMD lanes within each. Results do not depend on either.
-/// @param progress the completed part of each chain; empty: nothing is completed
+/// @param known what is completed
 /// @param sink receives results, in order within each chain; called by one thread at a time, with the number of the
 /// point and its initial values
 /// @return false if the execution was stopped
 /// @throws what `sink` throws, after all threads have ended
-bool execute(const Plan& plan, const SearchFactory& searches, std::span<const ChainProgress> progress,
-             const ExecutionOptions& options,
+bool execute(const Plan& plan, const SearchFactory& searches, const KnownChains& known, const ExecutionOptions& options,
              const std::function<void(std::size_t point, const PointStart& start, PointResult& result)>& sink);
 
 } // namespace graze
