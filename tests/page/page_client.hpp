@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <chrono>
+#include <map>
 #include <string>
 
 namespace graze::testing {
@@ -62,17 +64,27 @@ public:
     /// The data of the next event of this name for which `wanted` holds; null if there is none for long.
     template <class Wanted>
     nlohmann::json wait_for(const std::string& event, const Wanted& wanted) {
-        for (;;) {
-            const std::string text = connection_.read_until("\n\n");
+        const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+        while (std::chrono::steady_clock::now() < end) {
+            const std::string text = connection_.read_until("\n\n"), begin = "event: ", middle = "\ndata: ";
             if (!text.ends_with("\n\n"))
                 return nullptr;
-            const auto begin = text.find("event: " + event + "\ndata: ");
-            if (begin == std::string::npos)
+            const auto name = text.find(begin), rest = text.find(middle);
+            if (name == std::string::npos || rest == std::string::npos)
                 continue;
-            const nlohmann::json data = nlohmann::json::parse(text.substr(begin + 14 + event.size()), nullptr, false);
-            if (wanted(data))
+            nlohmann::json data = nlohmann::json::parse(text.substr(rest + middle.size()), nullptr, false);
+            const std::string found = text.substr(name + begin.size(), rest - name - begin.size());
+            if (found == event && wanted(data))
                 return data;
+            passed_[found] = std::move(data);
         }
+        return nullptr;
+    }
+    /// The data of the last event of this name that was passed over while another was waited for; null if there is
+    /// none.
+    nlohmann::json passed(const std::string& event) const {
+        const auto found = passed_.find(event);
+        return found == passed_.end() ? nlohmann::json() : found->second;
     }
     nlohmann::json wait_for_job(const std::string& state) {
         return wait_for("job", [&](const nlohmann::json& job) { return job["state"] == state; });
@@ -81,6 +93,7 @@ public:
 
 private:
     RawClient connection_;
+    std::map<std::string, nlohmann::json> passed_;
 };
 
 } // namespace graze::testing
