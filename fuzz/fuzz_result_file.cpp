@@ -132,7 +132,16 @@ void read_all() {
     for (const graze::RunRecord& run : file.runs()) {
         attempt([&] { graze::stored_model(run); });
         attempt([&] { file.point_count(run.name); });
-        attempt([&] { file.last_points(run.name, 2); });
+        attempt([&] {
+            const auto next = file.last_points(run.name, 2);
+            while (next()) {
+            }
+        });
+        attempt([&] {
+            const auto next = file.point_numbers(run.name);
+            while (next()) {
+            }
+        });
         attempt([&] { file.point(run.name, 1); });
         attempt([&] { file.nearest_point(run.name, "x", 1, 0); });
         attempt([&] { file.orbits(run.name, false); });
