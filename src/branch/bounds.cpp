@@ -16,6 +16,8 @@ namespace {
 constexpr double round_off_of_bound =
     1e-12; // relative to the bounds, or to the scale of a parameter whose bound is zero
 
+constexpr double round_off_of_start = 1e-11;
+
 /// Returns the parameter of a bound test with its bounds, if the test is not about a monitor.
 FreeBounds bounds_of(const BranchSettings& settings, const BranchTest& test) {
     return test.free ? settings.free_bounds[*test.free]
@@ -116,8 +118,10 @@ bool leads_beyond_bounds(BranchState& state) {
     const auto leaves = [&](ParameterId parameter, const auto& least, const auto& greatest) {
         const std::size_t place = place_of_parameter(state.problem().equations(), parameter);
         const double rise = begun.tangent[place], value = begun.u[place];
-        return (least && (value < *least || (rise < 0 && value <= *least))) ||
-               (greatest && (value > *greatest || (rise > 0 && value >= *greatest)));
+        // A point that was located on a bound lies on either side of it by round-off: where it leads decides.
+        const double room = round_off_of_start * std::max(std::abs(least.value_or(0)), std::abs(greatest.value_or(0)));
+        return (least && (value < *least - room || (rise < 0 && value <= *least + room))) ||
+               (greatest && (value > *greatest + room || (rise > 0 && value >= *greatest - room)));
     };
     return leaves(settings.parameter, settings.least, settings.greatest) ||
            std::any_of(settings.free_bounds.begin(), settings.free_bounds.end(),

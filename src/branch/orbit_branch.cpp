@@ -7,6 +7,7 @@
 #include "branch/point_rules.hpp"
 #include "branch/reordering.hpp"
 #include "branch/shrinking_orbit.hpp"
+#include "branch/simpler_end.hpp"
 #include "branch/touch_curve_start.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
@@ -20,8 +21,6 @@
 namespace graze {
 
 namespace {
-
-const char* const returned_to_simpler = "back on the branch of simpler orbits";
 
 /// Returns why an orbit is inadmissible; empty if it is admissible.
 std::string reason_of(const BranchPoint& point) {
@@ -141,6 +140,8 @@ private:
             return end(BranchOutcome::bound, "no orbit was found on the bound itself");
         }
         attempts_ = 0;
+        if (state_.settings().kept)
+            simpler_end_.note(state_);
         drop_points_at_start(here.point.arclength - before.point.arclength);
         end_or_reorder(before.point.solution.certificate.admissible);
         if (!ended_ && returned_)
@@ -154,8 +155,23 @@ private:
                                work, here.point.solution.orbit.period()));
         return true;
     }
+    /// Ends a curve at the simpler orbits that it has all but met.
+    bool end_beside_simpler() {
+        ContinuationPoint at = state_.continuation().point();
+        at.u = state_.problem().unknowns_of(simpler_end_.estimate(state_.orbit()));
+        const auto there = state_.describe(at);
+        found = {special_of_type(PointType::branch_point, there ? there->point : here.point)};
+        found[0].detail = returned_to_simpler;
+        found[0].located = false; // it is extrapolated
+        found[0].bracket = std::minmax(here.point.parameter, found[0].parameter);
+        found[0].step = ++here.point.step;
+        finish_at(0, BranchOutcome::returned, returned_to_simpler);
+        return true;
+    }
     /// After a step that failed: continues a curve of touches where the touch has come to the edge of its segment.
     bool continue_beyond_edge() {
+        if (state_.settings().kept && !starts_simpler_ && simpler_end_.is_beside())
+            return end_beside_simpler();
         const std::string edge = touch_at_edge(state_.settings(), here.point.solution.orbit);
         if (edge.empty())
             return end(state_.continuation().outcome() == ContinuationOutcome::undefined
@@ -406,7 +422,8 @@ private:
     bool is_kept_point_;          ///< a curve begins at its kept point, not at changed parameters
     bool returned_ = false;       ///< the last step has led to simpler orbits
     bool starts_simpler_ = false; ///< the first orbit is a repeated orbit, or symmetric but not given as a half orbit
-    int attempts_ = 0;            ///< number of repetitions of the current step
+    SimplerEnd simpler_end_;
+    int attempts_ = 0; ///< number of repetitions of the current step
     bool ended_ = true;
 };
 

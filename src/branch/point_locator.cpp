@@ -41,6 +41,18 @@ std::vector<SpecialPoint> PointLocator::locate_all(const DescribedPoint& before)
                 found.push_back(std::move(*special));
             }
     add_bounds_before(found, before);
+    if (state_->settings().kept)
+        if (std::optional<SpecialPoint> simpler = locate_simpler()) {
+            // The curve runs back over itself behind, so that its parameters have extrema there.
+            constexpr double near = 0.05; // share of the step: both points are ill-conditioned
+            std::erase_if(found, [&](const SpecialPoint& one) {
+                return (one.type == PointType::cusp || one.type == PointType::extremum ||
+                        one.type == PointType::branch_point) &&
+                       std::abs(one.arclength - simpler->arclength) < near * length;
+            });
+            note(*simpler, before.point, true);
+            found.push_back(std::move(*simpler));
+        }
     older_ = tests;
     older_arclength_ = from;
     sort_by_place(found);
@@ -267,6 +279,38 @@ std::optional<SpecialPoint> PointLocator::locate_zero(std::size_t test, const Te
     if (last && std::isnan(there->tests[test].value)) // use the last defined time
         there->tests[test].time = last->time;
     return special_at(there->point, there->tests[test], size);
+}
+
+/// Locates where a curve within the last step meets a curve of simpler orbits, as curves of folds of doubled orbits do
+/// at degenerate flips. Determinants have multiple zeros there, but the difference of the halves of the orbit a simple
+/// one.
+std::optional<SpecialPoint> PointLocator::locate_simpler() {
+    Continuation& continuation = state_->continuation();
+    const auto differences = [&](const ContinuationPoint& at) {
+        return differences_of_halves(*state_, state_->problem().orbit_of(at.u));
+    };
+    const auto is_more = [](const std::vector<double>& all) { // than round-off
+        return std::ranges::any_of(all, [](double one) { return std::abs(one) > same_orbit; });
+    };
+    const auto before = differences(continuation.previous()), behind = differences(continuation.point());
+    for (std::size_t i = 0; i < before.size() && before.size() == behind.size(); ++i) {
+        const Eigen::VectorXd change = vector_of(behind[i]) - vector_of(before[i]);
+        const double low = change.dot(vector_of(before[i])), high = change.dot(vector_of(behind[i]));
+        if (!(low < 0 && high > 0) || !is_more(before[i]) || !is_more(behind[i]))
+            continue;
+        const PointTest along = [&](const ContinuationPoint& sample) {
+            return change.dot(vector_of(differences(sample)[i]));
+        };
+        // Near the crossing Newton's method is inaccurate.
+        for (const double reach : {4.0, 8.0, 16.0, 32.0}) {
+            const auto at = locate_crossing(continuation, along, {0, low}, {1, high}, reach);
+            if (!at || !is_degenerate(*state_, state_->problem().orbit_of(at->u), same_orbit))
+                continue;
+            if (const auto there = state_->describe(*at))
+                return special_of_type(PointType::branch_point, there->point);
+        }
+    }
+    return std::nullopt;
 }
 
 /// Locates a zero at or near the crossing with another branch, where determinants vanish.

@@ -32,6 +32,7 @@ private:
     std::optional<SpecialPoint> locate_zero(std::size_t test, const TestValue& begin, const TestValue& end,
                                             bool& complete);
     std::optional<SpecialPoint> locate_by_crossing(std::size_t test, const TestValue& low, const TestValue& high);
+    std::optional<SpecialPoint> locate_simpler();
     void add_bounds_before(std::vector<SpecialPoint>& found, const DescribedPoint& before);
     bool is_beyond(const SpecialPoint& special, const std::vector<BranchTest>& tests) const;
     void sort_by_place(std::vector<SpecialPoint>& found) const;

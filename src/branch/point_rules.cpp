@@ -1,5 +1,6 @@
 #include "branch/point_rules.hpp"
 
+#include "base/concatenated.hpp"
 #include "branch/point_kind.hpp"
 #include "orbit/newton.hpp"
 #include "orbit/orbit_flow.hpp"
@@ -166,6 +167,34 @@ bool is_degenerate(BranchState& state, const Orbit& orbit, double same) {
 bool is_degenerate(BranchState& state, const SpecialPoint& special) {
     constexpr double same = 1e-3;
     return special.type == PointType::branch_point && is_degenerate(state, special.solution.orbit, same);
+}
+
+std::vector<std::vector<double>> differences_of_halves(BranchState& state, const Orbit& orbit, bool scaled) {
+    const Model& model = state.model();
+    const std::size_t half = orbit.segments() / 2;
+    std::vector<std::vector<double>> all;
+    if (orbit.symmetry || orbit.segments() % 2 != 0)
+        return all;
+    const auto add = [&](const std::vector<std::size_t>* modes, const auto& image) {
+        std::vector<double> differences;
+        for (std::size_t k = 0; k < half; ++k) {
+            const std::size_t mode = orbit.signature[k].mode;
+            if ((modes ? (*modes)[mode] : mode) != orbit.signature[k + half].mode)
+                return;
+            const std::vector<double> start = image(orbit.starts[k]);
+            for (const std::size_t i : state.problem().evaluation().active)
+                if (!model.states[i].period)
+                    differences.push_back((orbit.starts[k + half][i] - start[i]) /
+                                          (scaled ? state.problem().scales()[i] : 1));
+        }
+        all.push_back(std::move(differences));
+    };
+    add(nullptr, [](const std::vector<double>& start) { return start; });
+    for (std::size_t s = 0; s < model.symmetries.size(); ++s)
+        add(&model.symmetries[s].modes, [&](const std::vector<double>& start) {
+            return state.system().symmetry(s).map(concatenated(start, orbit.parameters));
+        });
+    return all;
 }
 
 void drop_consequences(BranchState& state, std::vector<SpecialPoint>& found, double length) {

@@ -2,6 +2,7 @@
 // point for any step lengths.
 
 #include "follow.hpp"
+#include "maps.hpp"
 
 #include <gtest/gtest.h>
 
@@ -53,6 +54,35 @@ TEST(ReturningBranches, EndAtTheSecondPointOfTheSimplerBranch) {
                 }
             }
         }
+    }
+}
+
+/// X -> a X - X^3 + b. Folds of its orbits of period 2 lie at 27 b^2 = 4 (a + 2)^3 and end at its degenerate flip,
+/// a = -2/3, b = 16/27. The curve of the equations runs back over itself behind this point.
+TEST(ReturningBranches, CurvesOfDoubledOrbitsEndWhereTheyMeetSimplerOnes) {
+    const Model model = map_model(fmt::format("a = -0.3\nb = {:.17g}", std::sqrt(0.5)), {"a*x - x^3 + b"});
+    const Orbit doubled = given_orbit(model, "map map", {{0.966, 0}, {-0.484, 0}}, {1, 1});
+    BranchSettings settings = in_parameter(model, "a", -1.4, 1.9, -1);
+    const Branch branch = follow_branch(System(model), doubled, settings);
+    const auto folds = of_type(branch, PointType::fold);
+    ASSERT_FALSE(folds.empty()) << names(branch);
+    EXPECT_NEAR(folds[0].parameter, -0.5, 1e-9);
+    constexpr double near = 5e-8; // the end is extrapolated where steps fail before it
+    for (const double step : {0.02, 0.05, 0.1, 0.2}) {
+        settings.continuation.largest_step = step;
+        const Branch down = curve_of(model, folds[0], settings, "b", -1.5, 1.5, -1),
+                     up = curve_of(model, folds[0], settings, "b", -1.5, 1.5, 1);
+        EXPECT_EQ(down.outcome, BranchOutcome::returned) << step << ' ' << names(down);
+        EXPECT_EQ(up.outcome, BranchOutcome::bound) << step << ' ' << names(up);
+        ASSERT_FALSE(down.special.empty());
+        const SpecialPoint& last = down.special.back();
+        EXPECT_EQ(last.type, PointType::branch_point);
+        EXPECT_NEAR(last.parameter, -2. / 3, near) << step;
+        EXPECT_NEAR(value_of(model, last.solution, "b"), 16. / 27, near) << step;
+        EXPECT_TRUE(of_type(down, PointType::cusp).empty());
+        EXPECT_TRUE(of_type(down, PointType::extremum).empty());
+        for (const BranchPoint& one : down.points)
+            EXPECT_GE(one.parameter, -2. / 3 - near);
     }
 }
 
