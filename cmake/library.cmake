@@ -1,6 +1,6 @@
 # The folders of the library, in the order of the architecture; each may use only those before it. Each is compiled once,
 # as an object library. The library consists of all of them; the tests of a folder are linked with it and those before it.
-set(GRAZE_FOLDERS base symbolic model tape flow trajectory record bench acquire identify sweep orbit grazing branch trip results study design layout picture page)
+set(GRAZE_FOLDERS base symbolic model tape flow trajectory record bench acquire identify sweep orbit grazing branch trip results study atlas design layout picture page)
 
 # Other libraries that a folder needs.
 set(GRAZE_NEEDS_sweep Threads::Threads)

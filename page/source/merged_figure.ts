@@ -1,5 +1,6 @@
 import { entry } from "./colouring.js";
 import type { ColourName, Figure, Panel, Series } from "./contract.js";
+import { pale } from "./palette.js";
 
 /**
  * One figure of the figures of several runs, as far as their panels have the same quantities: each run gets colours of
@@ -91,7 +92,7 @@ function haveSameAxes(one: Panel, other: Panel): boolean {
 
 function coloursOf(figure: Figure): number {
   const all = figure.panels.flatMap(({ series }) => series.map(({ colour }) => colour));
-  return 1 + Math.max(0, ...all.filter((colour): colour is number => typeof colour === "number"));
+  return 1 + Math.max(0, ...all.map((colour) => (typeof colour === "number" ? colour % pale : 0)));
 }
 
 function shifted(figure: Figure, by: number): Figure {

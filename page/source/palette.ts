@@ -33,10 +33,14 @@ function mixed(one: number, other: number, part: number): number {
   return channel(16) | channel(8) | channel(0);
 }
 
+/** Added to a colour: a tint of it, on which lines and letters can be read. */
+export const pale = 2000;
+
 /** A colour as 0xRRGGBB. Colours beyond the end of the palette are shades of its colours. */
 export function colourNumber(colour: ColourName, look: Look): number {
   if (colour === "grey") return look.grey;
   if (colour === "black") return look.ink;
+  if (colour >= pale) return mixed(colourNumber(colour - pale, look), look.ground, 0.6);
   const palette = look.dark ? onDark : onLight;
   const times = Math.floor(colour / palette.length) % 3;
   return mixed(palette[colour % palette.length], look.dark ? 0xffffff : 0x000000, 0.35 * times);

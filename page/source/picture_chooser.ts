@@ -17,7 +17,11 @@ function kindsOf(run: Run): string[] {
   if (run.kind === "identify") return ["residuals"];
   if (run.kind === "record") return ofSamples;
   const { length } = run.coordinates;
-  return [...(length === 1 ? ["bifurcation"] : length > 1 ? ["basin", "map", "bifurcation"] : []), ...ofSamples];
+  return [
+    ...(run.kind === "atlas" ? ["atlas"] : []),
+    ...(length === 1 ? ["bifurcation"] : length > 1 ? ["basin", "map", "bifurcation"] : []),
+    ...ofSamples,
+  ];
 }
 
 const ofOrbits = ["period", "multiplier", "error", "slowest_approach"]; // what every point of a branch has

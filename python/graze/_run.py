@@ -105,6 +105,14 @@ class Run(Fixed):
         query, or changes something."""
         return Table(*self._store.read("query", checked.text(sql, "sql"), [self.name]))
 
+    def findings(self, what: str = "points") -> Table:
+        """A table of what an atlas, a run of kind "atlas", has found, as `graze atlas --what`: "curves", "points",
+        "branches", "motions", or "left", which is what was not explored.
+
+        Raises InputError, which names the tables, for another word, and for a run of another kind.
+        """
+        return Table(*self._store.read("findings", self.name, checked.text(what, "what")))
+
     @property
     def points(self) -> Table:
         """A row for each point, or orbit."""
@@ -127,8 +135,8 @@ class Run(Fixed):
         also: other runs, such as branches and curves, drawn in the same panels, each in a colour of its own.
         over: runs whose points are drawn over those of this one, as measured ones over computed ones.
         Other arguments are the keys of pictures in studies (docs/study-format.md): kind ("bifurcation", "branch",
-            "basin", "map", "spectrum", "history", "portrait", "poincare", "regression", "scatter", "residuals"; chosen by
-            the kind of run), x, y (a name or a list: one panel each), samples, directions, at, points, x_range, y_range,
+            "atlas", "basin", "map", "spectrum", "history", "portrait", "poincare", "regression", "scatter", "residuals";
+            chosen by the kind of run), x, y (a name or a list: one panel each), samples, directions, at, points, x_range, y_range,
             logarithmic, title, names, x_label, y_label, size (in mm), font, grey, ...
 
         Raises InputError for keys and values that pictures do not have, and for a wrong number of axes.

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace graze {
@@ -22,6 +23,13 @@ std::string toml_string(const std::string& text) {
             result += c;
     }
     return result + (long_form ? "\"\"\"" : "\"");
+}
+
+std::string toml_key(const std::string& name) {
+    const bool bare = std::ranges::all_of(name, [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    });
+    return bare && !name.empty() ? name : toml_string(name);
 }
 
 std::string number_text(double value) {

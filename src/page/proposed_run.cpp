@@ -27,13 +27,6 @@ namespace graze {
 
 namespace {
 
-std::string toml_key(const std::string& name) {
-    const bool bare = std::ranges::all_of(name, [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-    });
-    return bare && !name.empty() ? name : toml_string(name);
-}
-
 /// The text of one proposed run, key by key.
 class RunProposal {
 public:
@@ -284,6 +277,7 @@ private:
         }
         if (name.size() > longest)
             name.resize(longest);
+        std::ranges::replace(name, '.', '-');  // "map.b12" and what begins so are names that an atlas gives
         std::set<std::string> taken{"points"}; // a view of result files
         for (const StudyRun& run : study_.runs)
             taken.insert(in_small_letters(run.name));

@@ -20,15 +20,16 @@ namespace graze {
 namespace {
 
 /// What runs of each kind are, in the order of RunKind.
-constexpr std::array<std::string_view, 9> words_of_kinds{"motions of given duration",
-                                                         "attractors as a parameter changes",
-                                                         "attractors from many initial states",
-                                                         "a periodic orbit",
-                                                         "a branch of periodic orbits",
-                                                         "a curve of special points",
-                                                         "a sequence of grazings",
-                                                         "measured records",
-                                                         "estimates from records"};
+constexpr std::array<std::string_view, 10> words_of_kinds{"motions of given duration",
+                                                          "attractors as a parameter changes",
+                                                          "attractors from many initial states",
+                                                          "a periodic orbit",
+                                                          "a branch of periodic orbits",
+                                                          "a curve of special points",
+                                                          "a sequence of grazings",
+                                                          "measured records",
+                                                          "estimates from records",
+                                                          "an atlas of attractors and branches"};
 
 std::string_view words_of_kind(const std::string& kind) {
     const auto known = run_kind(kind);

@@ -1,5 +1,6 @@
 #include "page/study_job.hpp"
 
+#include "graze/atlas/run_atlas.hpp"
 #include "graze/results/query_interruption.hpp"
 #include "graze/study/runner.hpp"
 #include "graze/study/stored_study.hpp"
@@ -69,7 +70,8 @@ void tell_kept_points(const StudySession& session, const Study& study, const std
 
 JobEnd compute_runs(const StudySession& session, const std::vector<std::string>& runs, const JobControl& control,
                     int threads) {
-    const std::shared_ptr<const Study> study = session.faultless_study();
+    // Of its own: atlases add runs to it.
+    const auto study = std::make_shared<Study>(*session.faultless_study());
     for (const std::string& name : runs)
         if (study->find_run(name) == nullptr)
             throw InputError(fmt::format("the study has no run '{}' any more", name), "add it again");
@@ -84,7 +86,7 @@ JobEnd compute_runs(const StudySession& session, const std::vector<std::string>&
     options.interrupted = control.interrupted;
     std::string last_told;
     options.progress = [&](const StudyProgress& made) {
-        const StudyRun* run = study->find_run(made.run);
+        const StudyRun* const run = study->find_run(made.run);
         last_told = made.run;
         if (run != nullptr && !run->is_branch())
             control.progress(made.run, made.done, made.points);
@@ -97,7 +99,11 @@ JobEnd compute_runs(const StudySession& session, const std::vector<std::string>&
     // A file that was made to have endless queries must not keep the server from ending; others go on to write.
     const QueryInterruption stoppable(long_requested(control.interrupted));
     try {
-        return end_of(run_study(*study, file, options), runs);
+        return end_of(run_with_atlases(*study, file, options,
+                                       [](const Study& all, ResultFile& to, const RunnerOptions& now) {
+                                           return run_study(all, to, now);
+                                       }),
+                      runs);
     } catch (...) {
         tell_kept_points(session, *study, last_told, control);
         throw;

@@ -1,4 +1,5 @@
 #include "base/special_numbers.hpp"
+#include "picture/grid_axis.hpp"
 #include "picture/picture_kinds.hpp"
 
 #include <fmt/format.h>
@@ -33,44 +34,16 @@ std::string short_kind(const ResultFile::Rows& row) {
     return row.text(0) == name_of(Label::periodic) ? fmt::format("period {}", row.text(1)) : row.text(0);
 }
 
-/// The values of one axis of a grid, and the edges between their cells.
-class GridAxis {
-public:
-    GridAxis(const std::vector<PlanePoint>& points, double PlanePoint::*coordinate, bool logarithmic)
-        : logarithmic_(logarithmic) {
-        for (const PlanePoint& point : points)
-            values_.push_back(point.*coordinate);
-        std::sort(values_.begin(), values_.end());
-        values_.erase(std::unique(values_.begin(), values_.end()), values_.end());
-    }
-    std::size_t size() const { return values_.size(); }
-    std::size_t index(double value) const {
-        return static_cast<std::size_t>(std::lower_bound(values_.begin(), values_.end(), value) - values_.begin());
-    }
-    /// Edges of the cell of value i.
-    double edge_before(std::size_t i) const { return i == 0 ? beyond(0, 1) : middle(i - 1, i); }
-    double edge_behind(std::size_t i) const { return i + 1 == size() ? beyond(i, i - 1) : middle(i, i + 1); }
-
-private:
-    double middle(std::size_t i, std::size_t k) const {
-        return is_logarithmic() ? std::sqrt(values_[i] * values_[k]) : (values_[i] + values_[k]) / 2;
-    }
-    double beyond(std::size_t i, std::size_t adjacent) const {
-        return is_logarithmic() ? values_[i] * std::sqrt(values_[i] / values_[adjacent])
-                                : values_[i] + (values_[i] - values_[adjacent]) / 2;
-    }
-    bool is_logarithmic() const { return logarithmic_ && values_.front() > 0; }
-    bool logarithmic_;
-    std::vector<double> values_;
-};
-
 /// Replaces dots on a grid by filled cells; dots that do not form a grid stay.
 void fill_cells(FigurePanel& panel) {
-    std::vector<PlanePoint> all;
+    std::vector<double> xs, ys;
     for (const FigureSeries& series : panel.series)
-        all.insert(all.end(), series.points.begin(), series.points.end());
-    const GridAxis x(all, &PlanePoint::x, panel.logarithmic_x), y(all, &PlanePoint::y, panel.logarithmic_y);
-    if (x.size() < 2 || y.size() < 2 || 2 * all.size() < x.size() * y.size())
+        for (const PlanePoint& point : series.points) {
+            xs.push_back(point.x);
+            ys.push_back(point.y);
+        }
+    const GridAxis x(xs, panel.logarithmic_x), y(ys, panel.logarithmic_y);
+    if (x.size() < 2 || y.size() < 2 || 2 * xs.size() < x.size() * y.size())
         return;
     for (FigureSeries& series : panel.series) {
         struct GridCell {

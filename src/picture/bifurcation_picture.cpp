@@ -210,7 +210,7 @@ ResultPicture bifurcation_picture(const StudyPicture& picture, const ResultFile&
                 add_samples_of(panel, picture, run, x, {values[v], direction}, false);
                 if (!panel.x_range && picture.x.empty())
                     panel.x_range = shown_extent(run);
-                if (run.record.kind == "sweep" && picture.x.empty())
+                if (run.record.is_swept() && picture.x.empty())
                     panel.marks = places_of_change(run, direction);
                 panel.marks_title = meaning_of_marks;
                 figure.panels.push_back(std::move(panel));

@@ -31,6 +31,15 @@ std::uint32_t darker(std::uint32_t colour, std::size_t times) {
     return colour;
 }
 
+/// A light tint, as of paper that is printed with little ink.
+std::uint32_t tint_of(std::uint32_t colour) {
+    constexpr double ink = 0.4;
+    std::uint32_t tint = 0;
+    for (const int shift : {16, 8, 0})
+        tint |= static_cast<std::uint32_t>(0xff - ink * (0xff - ((colour >> shift) & 0xff)) + 0.5) << shift;
+    return tint;
+}
+
 template <class Shades>
 std::uint32_t shade_of(std::size_t colour, const Shades& shades) {
     if (colour == FigureSeries::grey)
@@ -41,6 +50,8 @@ std::uint32_t shade_of(std::size_t colour, const Shades& shades) {
 } // namespace
 
 std::uint32_t colour_number(std::size_t colour, bool grey) {
+    if (colour >= FigureSeries::pale)
+        return tint_of(colour_number(colour - FigureSeries::pale, grey));
     if (grey || colour >= FigureSeries::grey)
         return shade_of(colour, line_shades);
     return darker(palette[colour % palette.size()], colour / palette.size() % 3);
@@ -51,6 +62,8 @@ std::uint32_t dot_number(std::size_t colour, bool grey) {
 }
 
 std::uint32_t cell_number(std::size_t colour, bool grey) {
+    if (colour >= FigureSeries::pale)
+        return tint_of(cell_number(colour - FigureSeries::pale, grey));
     return grey ? shade_of(colour, cell_shades) : colour_number(colour);
 }
 
@@ -67,6 +80,8 @@ int circle_mark(std::size_t colour) {
 }
 
 int cell_hatch(std::size_t colour) {
+    if (colour >= FigureSeries::pale)
+        return cell_hatch(colour - FigureSeries::pale);
     constexpr std::size_t solid = cell_shades.size();
     return colour < solid || colour >= FigureSeries::grey ? 0 : 1 + static_cast<int>((colour - solid) % 2);
 }

@@ -245,8 +245,7 @@ private:
             data += points + "e\n";
             plots += fmt::format("{}'-' {} notitle", plots.empty() ? "" : ", ", style);
         };
-        const bool cells = std::any_of(panel.series.begin(), panel.series.end(),
-                                       [](const FigureSeries& series) { return !series.cells.empty(); });
+        const double disc = width_of_discs(panel);
         const std::vector<std::size_t> covering = covering_lines(panel, layout);
         bool dots = false;
         for (const double mark : panel.marks)
@@ -269,10 +268,9 @@ private:
                 s = last;
                 continue;
             }
-            if (cells && series.style ==
-                             FigureSeries::Style::symbols) // a white disc below makes the symbol visible on any colour
+            if (disc > 0 && series.style == FigureSeries::Style::symbols)
                 add(data_text(series, panel, layout),
-                    fmt::format("with points pt 7 ps {:.3g} lc rgb 'white'", 2 * symbol_));
+                    fmt::format("with points pt 7 ps {:.3g} lc rgb 'white'", disc * symbol_));
             add(data_text(series, panel, layout),
                 style_text(series,
                            series.style == FigureSeries::Style::impulses ? panel.series.size() - 1 - s : covering[s]));
@@ -282,6 +280,17 @@ private:
                                 colour_text(series.colour, true)));
         }
         return data.empty() ? "" : "plot " + plots + '\n' + data;
+    }
+
+    /// Width of the white discs below symbols, which make these visible on cells of any colour; 0: none are needed. On
+    /// tints they are as large as the symbols, so that many symbols do not hide the rest.
+    static double width_of_discs(const FigurePanel& panel) {
+        bool cells = false, tints = false;
+        for (const FigureSeries& series : panel.series) {
+            cells = cells || !series.cells.empty();
+            tints = tints || (!series.cells.empty() && series.colour >= FigureSeries::pale);
+        }
+        return tints ? 1 : cells ? 2 : 0;
     }
 
     /// Leaves out points of a line that do not change its appearance. gnuplot rounds dense points of nearly horizontal

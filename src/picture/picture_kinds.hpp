@@ -77,6 +77,8 @@ ResultPicture motion_picture(const StudyPicture& picture, const ResultFile& file
 ResultPicture orbit_picture(const StudyPicture& picture, const ResultFile& file);
 /// Branches of orbits: one panel for each monitor.
 ResultPicture branch_picture(const StudyPicture& picture, const ResultFile& file);
+/// What an atlas has found, in one parameter or in the plane of both.
+ResultPicture atlas_picture(const StudyPicture& picture, const ResultFile& file);
 ResultPicture regression_picture(const StudyPicture& picture, const ResultFile& file);
 ResultPicture scatter_picture(const StudyPicture& picture, const ResultFile& file);
 /// Measured and fitted values and residuals of runs of kind identify.

@@ -15,8 +15,9 @@ StudyPicture default_picture(const RunRecord& run) {
     StudyPicture picture;
     picture.name = run.name;
     picture.runs = {run.name};
-    const bool is_diagram = run.kind == "sweep" || (run.kind == "record" && run.points > 1 && !run.coordinates.empty());
-    picture.kind = is_diagram                   ? "bifurcation"
+    const bool is_diagram = run.is_swept() || (run.kind == "record" && run.points > 1 && !run.coordinates.empty());
+    picture.kind = run.kind == "atlas"          ? "atlas"
+                   : is_diagram                 ? "bifurcation"
                    : run.is_followed()          ? "branch"
                    : run.kind == "orbit"        ? "portrait"
                    : run.kind == "identify"     ? "residuals"
@@ -24,6 +25,12 @@ StudyPicture default_picture(const RunRecord& run) {
                    : run.coordinates.size() > 1 ? "basin"
                                                 : "scatter";
     return picture;
+}
+
+bool has_own_picture(const RunRecord& run, const ResultFile& file) {
+    const std::size_t dot = run.name.find('.');
+    const auto atlas = dot == std::string::npos ? std::nullopt : file.find_run(run.name.substr(0, dot));
+    return !atlas || atlas->kind != "atlas";
 }
 
 namespace {
@@ -75,7 +82,8 @@ void remove_repeated(std::vector<std::string>& names) {
 using PictureFunction = ResultPicture (*)(const StudyPicture&, const ResultFile&);
 
 /// What draws a kind of picture.
-constexpr std::array<std::pair<std::string_view, PictureFunction>, 10> drawings{{{"basin", basin_picture},
+constexpr std::array<std::pair<std::string_view, PictureFunction>, 11> drawings{{{"atlas", atlas_picture},
+                                                                                 {"basin", basin_picture},
                                                                                  {"branch", branch_picture},
                                                                                  {"history", motion_picture},
                                                                                  {"map", basin_picture},

@@ -83,6 +83,16 @@ struct RunArguments : StudyArguments {
     bool list = false, show = false, steps = false, schema = false, no_wait = false;
 };
 
+/// Texts of ranges and values are not yet parsed; an empty text or list was not given.
+struct AtlasArguments : StudyArguments {
+    std::string subject; ///< a model, whose atlas is made; without `along` results that have one
+    std::vector<std::string> along, set, from, starts;
+    std::string folder, section, what, run;
+    std::optional<std::size_t> contacts, multiple, branches, curves, draws, seed;
+    std::optional<double> minutes;
+    int jobs = 0; ///< 0: as many as there are cores
+};
+
 struct MergeArguments : StudyArguments {
     std::vector<std::string> parts;
     std::string folder;

@@ -11,6 +11,7 @@ int check_command(const CheckArguments& arguments, const Console& console);
 int models_command(const ModelsArguments& arguments, const Console& console);
 int simulate_command(const SimulateArguments& arguments, const Console& console);
 int run_command(const RunArguments& arguments, const Console& console);
+int atlas_command(const AtlasArguments& arguments, const Console& console);
 int merge_command(const MergeArguments& arguments, const Console& console);
 int export_command(const ExportArguments& arguments, const Console& console);
 int plot_command(const PlotArguments& arguments, const Console& console);

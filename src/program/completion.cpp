@@ -1,5 +1,6 @@
 #include "program/completion.hpp"
 
+#include "graze/atlas/atlas_tables.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/branch/special_point.hpp"
 #include "graze/design/design.hpp"
@@ -209,7 +210,7 @@ Choices choices_for(const CLI::App& app, const CLI::App& command, const Declared
             commands.push_back(one->get_name());
         if (name == "MODEL")
             return {shipped_models(), true};
-        if (name == "NAME")
+        if (name == "NAME" || name == "SUBJECT")
             return {shipped_models(), true};
         if (name == "STUDY")
             return {shipped_studies(), true};
@@ -233,8 +234,8 @@ Choices choices_for(const CLI::App& app, const CLI::App& command, const Declared
     if (starts("KIND_OF_RUN"))
         return {united(kinds_of_runs(), {"all"}), false};
     if (starts("KIND"))
-        return {{"bifurcation", "branch", "basin", "map", "spectrum", "history", "portrait", "poincare", "regression",
-                 "scatter", "residuals"},
+        return {{"bifurcation", "branch", "atlas", "basin", "map", "spectrum", "history", "portrait", "poincare",
+                 "regression", "scatter", "residuals"},
                 false};
     if (starts("RULE"))
         return {{"simpson", "gauss"}, false};
@@ -254,6 +255,8 @@ Choices choices_for(const CLI::App& app, const CLI::App& command, const Declared
         return {record_table_names(), false};
     if (starts("TABLE") && of == "identify")
         return {fit_table_names(), false};
+    if (starts("TABLE") && of == "atlas")
+        return {atlas_table_names(), false};
     if (starts("TABLE"))
         return {result_table_names(), false};
     return {};

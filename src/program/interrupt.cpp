@@ -68,8 +68,8 @@ int InterruptGuard::exit_code() {
 }
 
 bool ends_in_order(std::string_view command) {
-    constexpr std::array<std::string_view, 7> commands{"run",   "merge",   "simulate", "ladder",
-                                                       "bench", "acquire", "view"};
+    constexpr std::array<std::string_view, 8> commands{"run",    "atlas", "merge",   "simulate",
+                                                       "ladder", "bench", "acquire", "view"};
     return std::find(commands.begin(), commands.end(), command) != commands.end();
 }
 

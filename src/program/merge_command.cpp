@@ -1,3 +1,4 @@
+#include "graze/atlas/run_atlas.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/study/stored_study.hpp"
 #include "graze/study/study_part.hpp"
@@ -61,10 +62,18 @@ std::string usual_folder(const std::vector<std::string>& given) {
 std::vector<ResultFile> opened_parts(const std::vector<std::string>& paths) {
     allow_many_files();
     std::vector<ResultFile> parts;
-    for (const std::string& path : paths)
-        if (!part_in(parts.emplace_back(path, ResultFile::Access::read)))
+    for (const std::string& path : paths) {
+        ResultFile file(path, ResultFile::Access::read);
+        const bool is_begun = part_in(file).has_value();
+        if (is_begun)
+            parts.push_back(std::move(file));
+        else if (!file.runs().empty() || paths.size() == 1) // otherwise the part was ended in its first moment
             throw InputError(Place{path, 0, 0}, "this is no part of a study",
                              "name files that graze run --part has written, or their folder");
+    }
+    if (parts.empty())
+        throw InputError(Place{paths.front(), 0, 0}, "no part of a study has been begun yet",
+                         "let parts be computed by graze run STUDY --output FOLDER --part 1/2, and 2/2");
     return parts;
 }
 
@@ -78,7 +87,7 @@ void allow_many_files() {
     setrlimit(RLIMIT_NOFILE, &limit);
 }
 
-MergedParts merge_files(const Study& study, const std::vector<ResultFile>& parts, const std::vector<std::string>& only,
+MergedParts merge_files(Study& study, const std::vector<ResultFile>& parts, const std::vector<std::string>& only,
                         ResultFile& file, const StudyArguments& arguments, const Console& console) {
     for (const ResultFile& part : parts)
         require_same_values(study, part);
@@ -88,15 +97,27 @@ MergedParts merge_files(const Study& study, const std::vector<ResultFile>& parts
     options.only = only;
     options.interrupted = [] { return InterruptGuard::requested(); };
     options.progress = [&](const StudyProgress& made) { progress.update(made); };
-    return merge_parts(study, parts, file, options);
+    forget_outdated_atlases(study, file);
+    add_atlas_runs(study, file);
+    MergedParts merged = merge_parts(study, parts, file, options);
+    if (!merged.complete() || is_interrupted(merged.reports))
+        return merged;
+    Study further = study;
+    if (const std::vector<std::string> next = add_atlas_runs(further, file); !next.empty())
+        merged.missing.push_back(
+            fmt::format("{} of atlases can begin, from '{}' on: compute the parts again, then merge "
+                        "them again, or let graze run explore the rest",
+                        next.size() == 1 ? "a run" : fmt::format("{} runs", next.size()), next.front()));
+    return merged;
 }
 
 int finish_merge(const Study& study, const MergedParts& merged, ResultFile& file, const std::string& folder,
                  const StudyArguments& arguments, const Console& console) {
     if (merged.complete() || is_interrupted(merged.reports))
         return finish_study(study, merged.reports, file, folder, arguments, console);
-    list_runs(merged.reports, file, arguments, console);
-    tell_failures(merged.reports, console);
+    const std::vector<RunReport> asked = asked_for(study, merged.reports);
+    list_runs(asked, file, arguments, console);
+    tell_failures(asked, console);
     for (const std::string& sentence : merged.missing)
         console.err << fmt::format("graze: {}\n", sentence);
     return exit_irregular;
@@ -105,7 +126,7 @@ int finish_merge(const Study& study, const MergedParts& merged, ResultFile& file
 int merge_command(const MergeArguments& arguments, const Console& console) {
     const std::vector<ResultFile> parts = opened_parts(part_paths(arguments.parts));
     const std::string folder = arguments.folder.empty() ? usual_folder(arguments.parts) : arguments.folder;
-    const Study study = asked_study(parts.front());
+    Study study = asked_study(parts.front());
     make_folder(folder, "--output");
     const InterruptGuard guard;
     ResultFile file((fs::path(folder) / "results.sqlite").string(), ResultFile::Access::write);

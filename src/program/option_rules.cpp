@@ -76,6 +76,8 @@ const std::vector<Excludes>& exclusions() {
         {"run", "--slurm", nullptr, {"--part"}, "leave one of them out"},
         {"run", "--slurm", nullptr, {"--jobs"}, "tell SLURM instead, as by -- --cpus-per-task=4"},
         {"run", "--quiet", nullptr, {"--format"}, "leave one of them out"},
+        {"atlas", "--quiet", nullptr, {"--format", "--what", "--digits", "--all"}, "leave one of them out"},
+        {"atlas", "--along", nullptr, {"--run"}, "leave it out: the atlas is the only one"},
         {"design",
          "--list",
          nullptr,
@@ -116,6 +118,10 @@ const std::vector<Excludes>& exclusions() {
 const std::vector<Needs>& needs() {
     static const std::vector<Needs> all{
         {"run", {"--no-wait", "--sbatch"}, {"--slurm"}},
+        {"atlas",
+         {"--set", "--from", "--section", "--starts", "--draws", "--seed", "--contacts", "--multiple", "--branches",
+          "--curves", "--minutes", "--output", "--jobs", "--no-pictures", "--progress", "--quiet"},
+         {"--along"}},
         {"layout", {"--mask"}, {"--picture", "--output"}},
         {"layout", {"--folder", "--seed"}, {"--yield"}},
         {"layout", {"--jobs"}, {"--yield", "--from-design"}},

@@ -102,6 +102,8 @@ struct ShownRuns {
 ShownRuns runs_to_show(const ResultFile& file, const Console& console) {
     ShownRuns shown;
     for (const RunRecord& run : file.runs()) {
+        if (!has_own_picture(run, file))
+            continue;
         if (file.point_count(run.name) > 0) {
             shown.names.push_back(run.name);
             continue;

@@ -1,3 +1,4 @@
+#include "graze/atlas/run_atlas.hpp"
 #include "graze/base/with_place.hpp"
 #include "graze/study/runner.hpp"
 #include "graze/study/stored_study.hpp"
@@ -12,6 +13,7 @@
 #include "program/progress_line.hpp"
 #include "program/slurm.hpp"
 #include "program/step_lines.hpp"
+#include "program/study_computing.hpp"
 #include "program/study_reports.hpp"
 #include "program/values.hpp"
 
@@ -35,12 +37,6 @@ void check_names(const Study& study, const std::vector<std::string>& only) {
             throw InputError({"--only", 0, 0}, fmt::format("the study has no run '{}'", name),
                              name_advice(name, known, "it has none"));
 }
-
-/// A study, its folder and its result file.
-struct StudyRequest {
-    Study study;
-    std::string folder, file;
-};
 
 /// Loads the study: a shipped one, one in a file, or the copy in a result file.
 StudyRequest study_request(const RunArguments& arguments) {
@@ -73,7 +69,7 @@ StudyRequest study_request(const RunArguments& arguments) {
     if (result.folder.empty()) // continue in the folder of the result file
         result.folder = own.empty() ? "." : own.string();
     else
-        result.file = (std::filesystem::path(result.folder) / "results.sqlite").string();
+        return StudyRequest::in_folder(std::move(result.study), result.folder);
     return result;
 }
 
@@ -97,7 +93,7 @@ std::vector<RunReport> computed(const Study& study, const RunArguments& argument
 }
 
 /// Computes one part of a study into a file of its own.
-int run_one_part(const StudyRequest& request, const RunArguments& arguments, const Console& console) {
+int run_one_part(StudyRequest request, const RunArguments& arguments, const Console& console) {
     StudyPart part;
     with_place({"--part", 0, 0}, [&] { part = study_part(arguments.part); });
     const std::string folder = (std::filesystem::path(request.folder) / folder_of_parts).string();
@@ -105,14 +101,17 @@ int run_one_part(const StudyRequest& request, const RunArguments& arguments, con
     const std::optional<ResultFile> results = earlier_results(request.study, request.file);
     ResultFile file((std::filesystem::path(folder) / file_of_part(part)).string(), ResultFile::Access::write);
     require_same_values(request.study, file);
+    if (results)
+        add_atlas_runs(request.study, *results);
     std::vector<std::string> waiting;
     const std::vector<RunReport> reports = computed(request.study, arguments, console, [&](const auto& options) {
         PartReports made = run_part(request.study, part, results ? &*results : nullptr, file, options);
         waiting = std::move(made.waiting);
         return std::move(made.runs);
     });
-    list_runs(reports, file, arguments, console);
-    const bool failed = tell_failures(reports, console);
+    const std::vector<RunReport> asked = asked_for(request.study, reports);
+    list_runs(asked, file, arguments, console);
+    const bool failed = tell_failures(asked, console);
     if (is_interrupted(reports))
         return told_interruption(console);
     for (const std::string& run : waiting)
@@ -123,36 +122,43 @@ int run_one_part(const StudyRequest& request, const RunArguments& arguments, con
     return failed ? exit_irregular : exit_success;
 }
 
-/// A study that is asked for, after a look at what is said about it.
-StudyRequest checked_request(const RunArguments& arguments) {
-    StudyRequest request = study_request(arguments);
+/// Looks at what is said about a study, and makes its folder.
+void prepare(const StudyRequest& request, const RunArguments& arguments) {
     keep_inputs_of(request.study);
     check_names(request.study, split_list(arguments.only));
     make_folder(request.folder, "--output");
-    return request;
 }
 
 /// Computes a part, or has SLURM compute all parts, whatever other processes were started with this one.
 int compute_alone(const RunArguments& arguments, const Console& console) {
-    const StudyRequest request = checked_request(arguments);
+    StudyRequest request = study_request(arguments);
+    prepare(request, arguments);
     const InterruptGuard guard;
     return arguments.slurm > 0 ? run_by_slurm(request.study, request.folder, request.file, arguments, console)
-                               : run_one_part(request, arguments, console);
+                               : run_one_part(std::move(request), arguments, console);
 }
 
-int compute_study(const RunArguments& arguments, const Console& console, std::unique_ptr<Workers> workers) {
-    const StudyRequest request = checked_request(arguments);
+} // namespace
+
+StudyRequest StudyRequest::in_folder(Study study, const std::string& folder) {
+    return {std::move(study), folder, (std::filesystem::path(folder) / "results.sqlite").string()};
+}
+
+int compute_study(StudyRequest request, const RunArguments& arguments, const Console& console,
+                  std::unique_ptr<Workers> workers) {
+    prepare(request, arguments);
     const InterruptGuard guard;
     ResultFile file(request.file, ResultFile::Access::write);
     require_same_values(request.study, file);
+    const StudyRunner runner = [&](const Study& study, ResultFile& to, const RunnerOptions& options) {
+        return workers ? workers->run_study(study, to, options) : run_study(study, to, options);
+    };
     const std::vector<RunReport> reports = computed(request.study, arguments, console, [&](const auto& options) {
-        return workers ? workers->run_study(request.study, file, options) : run_study(request.study, file, options);
+        return run_with_atlases(request.study, file, options, runner);
     });
     workers.reset(); // the rest is for one process
     return finish_study(request.study, reports, file, request.folder, arguments, console);
 }
-
-} // namespace
 
 int run_command(const RunArguments& arguments, const Console& console) {
     if (arguments.list)
@@ -172,7 +178,7 @@ int run_command(const RunArguments& arguments, const Console& console) {
     if (!arguments.part.empty() || arguments.slurm > 0)
         return compute_alone(arguments, console);
     return with_workers(arguments.jobs, [&](std::unique_ptr<Workers> workers) {
-        return compute_study(arguments, console, std::move(workers));
+        return compute_study(study_request(arguments), arguments, console, std::move(workers));
     });
 }
 

@@ -287,13 +287,14 @@ std::optional<int> merged(SlurmParts& parts, std::optional<std::vector<std::stri
                           const std::string& folder, const std::string& path, const RunArguments& arguments,
                           const Console& console) {
     ResultFile file(path, ResultFile::Access::write);
-    const MergedParts all = merge_files(study, parts.files(), split_list(arguments.only), file, arguments, console);
+    Study explored = study; // atlases add runs to it
+    const MergedParts all = merge_files(explored, parts.files(), split_list(arguments.only), file, arguments, console);
     const std::vector<std::size_t> left = parts.left();
     if (!all.complete() && !is_interrupted(all.reports) && left.empty() && before != all.missing) {
         before = all.missing;
         return std::nullopt;
     }
-    const int code = finish_merge(study, all, file, folder, arguments, console);
+    const int code = finish_merge(explored, all, file, folder, arguments, console);
     if (!all.complete() && !left.empty())
         console.err << fmt::format("graze: SLURM has ended {}: {}; what they say is in {}; the same command goes on\n",
                                    left.size() == 1 ? "a task" : "tasks", parts.ends(),

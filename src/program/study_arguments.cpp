@@ -1,5 +1,6 @@
 #include "program/command_line.hpp"
 
+#include "graze/atlas/atlas_tables.hpp"
 #include "graze/study/study_keys.hpp"
 #include "program/commands.hpp"
 
@@ -27,6 +28,21 @@ constexpr const char* run_examples = R"(Examples:
   graze run mems-switch --show > my-switch.toml
   graze run --keys sweep                          the keys of a run of kind sweep
   graze run --schema > study.schema.json          for an editor that completes TOML)";
+
+constexpr const char* atlas_text = R"(Explore what can happen in a box of one or two parameters.
+Motions are simulated all over the box. From the attractors that they settle on, branches of periodic orbits are followed,
+switched at their flips, branch points and grazings. In two parameters the curves of all these points are followed, and those
+that begin where curves meet, until nothing new is found. The branches are compared with the motions. FOLDER gets the results,
+one picture and one table; the same command goes on with an atlas that was interrupted. A run of kind "atlas" of a study does
+the same. Without --along: show the atlas that is in results.)";
+
+constexpr const char* atlas_examples = R"(Examples:
+  graze atlas impact-oscillator --along omega=2.6:2.9
+  graze atlas impact-microactuator --along V=0.01:1.1 --along omega=0.6:1.4:5 --contacts 4 --multiple 2
+  graze atlas my-model.toml --along k=1:5:101 --along f=2:3:11 --minutes 10
+  graze atlas my-model-atlas                       what it has found
+  graze atlas my-model-atlas --what curves         every curve, and what lies on it
+  graze atlas my-model-atlas --format csv          every curve and point, with all digits)";
 
 constexpr const char* merge_text =
     R"(Put the parts of a study together, which several processes or machines have computed.
@@ -127,6 +143,46 @@ void declare_run(CommandLine& line) {
     options.add("--sbatch TEXT", run.sbatch, "")->group(""); // what follows --: see with_joined_words
 }
 
+void declare_atlas(CommandLine& line) {
+    auto [options, atlas] = line.command("atlas", atlas_text, atlas_examples, atlas_command);
+    constexpr std::size_t many = 1'000'000;
+    options.add("SUBJECT", atlas.subject, "A model, shipped or in a file; without --along results, or their folder");
+    options.in("What is explored");
+    options.add("--along NAME=FROM:TO", atlas.along,
+                "A parameter, and the range in which motions begin; twice for two parameters. FROM:TO:POINTS gives the "
+                "number of values, too (61 of the first, 9 of the second)");
+    options.add("--set NAME=VALUE", atlas.set, "Values of other parameters");
+    options.add("--from STATE=VALUE", atlas.from, "Initial state of the first motion (the model's)");
+    options.add("--section NAME", atlas.section,
+                "Section whose passages are counted as returns (the first section of a phase, or the first of all)");
+    options.add(
+        "--starts STATE=LOW:HIGH", atlas.starts,
+        "Ranges of initial states from which motions begin at random (chosen by the extents of the other motions)");
+    options.add("--draws N", atlas.draws, "Random initial states at every fourth value (2)", whole_number(0, many));
+    options.add("--seed N", atlas.seed, "Seed of the random initial states (1)", whole_number(0, 1L << 53));
+    options.in("How far");
+    options.add("--contacts N", atlas.contacts,
+                "Most contacts with barriers in a return of orbits that are followed (8)", whole_number(0, many));
+    options.add("--multiple N", atlas.multiple, "Longest period, in returns, of orbits that are followed (4)",
+                whole_number(1, many));
+    options.add("--branches N", atlas.branches, "Most branches (300)", whole_number(1, many));
+    options.add("--curves N", atlas.curves, "Most curves (100)", whole_number(0, many));
+    options.add("--minutes T", atlas.minutes, "Time after which nothing further is begun (no limit)",
+                non_negative_number());
+    options.in("Results");
+    options.add("--output FOLDER", atlas.folder, "Folder of results and picture (the model's name and -atlas)");
+    options.jobs(atlas.jobs);
+    options.add("--no-pictures", atlas.no_pictures, "Compute only; write no picture and table");
+    options.progress(atlas.progress);
+    options.add("--quiet", atlas.quiet, "Print no summary and no tables");
+    std::vector<std::string> tables = atlas_table_names();
+    options.add("--what TABLE", atlas.what, "Show only this table: curves, points, branches, motions, or left",
+                one_of(tables));
+    options.add("--run RUN", atlas.run, "Of several atlases in the results, this one");
+    options.digits(atlas.output);
+    options.add("--all", atlas.output.all, "Show all columns of a table, even if they do not fit the terminal");
+}
+
 void declare_merge(CommandLine& line) {
     auto [options, merge] = line.command("merge", merge_text, merge_examples, merge_command);
     options.add("PARTS", merge.parts, "Folder of a study whose parts have been computed, or files of parts");
@@ -182,10 +238,10 @@ void declare_plot_results(CommandLine& line) {
                 "Runs to be drawn (all): one picture for each run, but one for all branches with --output");
     options.add(
         "--kind KIND", plot.picture.kind,
-        "bifurcation, branch, basin, map, spectrum, history, portrait, poincare, regression, scatter or residuals "
-        "(chosen by the run)",
-        one_of({"bifurcation", "branch", "basin", "map", "spectrum", "history", "portrait", "poincare", "regression",
-                "scatter", "residuals"}));
+        "bifurcation, branch, atlas, basin, map, spectrum, history, portrait, poincare, regression, scatter, residuals "
+        "(by the run)",
+        one_of({"bifurcation", "branch", "atlas", "basin", "map", "spectrum", "history", "portrait", "poincare",
+                "regression", "scatter", "residuals"}));
     options.add("--x NAME", plot.picture.x, "Horizontal axis: a state or quantity (the parameter that varies)");
     options.add("--y NAME", plot.picture.y, "Vertical axes: states or quantities, one panel each (all values)");
     options.add("--sample NAME", plot.picture.samplings, "Draw only these samplings, such as sections (all)");
@@ -217,6 +273,7 @@ void declare_plot_results(CommandLine& line) {
 
 void declare_study_commands(CommandLine& line) {
     declare_run(line);
+    declare_atlas(line);
     declare_merge(line);
     declare_view(line);
     declare_info(line);

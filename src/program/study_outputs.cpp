@@ -69,6 +69,9 @@ private:
         std::string text = fmt::format("{} {} {}", drawing_version, GRAZE_VERSION, settings_of(*picture_));
         std::vector<std::string> names = picture_->runs;
         names.insert(names.end(), picture_->over.begin(), picture_->over.end());
+        for (const RunRecord& run : file_->runs())
+            if (!has_own_picture(run, *file_)) // the picture of its atlas shows it
+                names.push_back(run.name);
         for (const std::string& name : names)
             if (const auto run = file_->find_run(name)) {
                 text += fmt::format("\n{} {} {} {}", name, run->fingerprint, file_->point_count(name),
@@ -128,7 +131,8 @@ DrawnPictures draw_study_pictures(const Study& study, ResultFile& file, const st
     std::vector<StudyPicture> pictures = study.pictures;
     if (pictures.empty() && study.tables.empty())
         for (const StudyRun& run : study.runs)
-            if (const auto record = file.find_run(run.name); record && file.point_count(run.name) > 0)
+            if (const auto record = file.find_run(run.name);
+                record && file.point_count(run.name) > 0 && has_own_picture(*record, file))
                 pictures.push_back(default_picture(*record));
     DrawnPictures drawn;
     for (StudyPicture& picture : pictures) {

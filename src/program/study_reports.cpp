@@ -1,7 +1,10 @@
 #include "program/study_reports.hpp"
 
+#include "graze/atlas/atlas_findings.hpp"
+#include "graze/atlas/atlas_tables.hpp"
 #include "graze/study/run_summary.hpp"
 #include "graze/study/stored_study.hpp"
+#include "program/atlas_text.hpp"
 #include "program/commands.hpp"
 #include "program/interrupt.hpp"
 #include "program/study_outputs.hpp"
@@ -96,6 +99,21 @@ Table cells_of(const std::vector<RunReport>& reports, const ResultFile& file) {
     return table;
 }
 
+/// Tells what the atlases among these runs have found. @return true if something contradicts their branches
+bool tell_atlases(const Study& study, const std::vector<RunReport>& reports, const ResultFile& file,
+                  const StudyArguments& arguments, const Console& console) {
+    bool any = false;
+    for (const RunReport& report : reports) {
+        if (report.kind != name_of(RunKind::atlas) || !report.complete())
+            continue;
+        const AtlasFindings findings = atlas_findings(study, report.name, file);
+        any = any || has_contradiction(findings);
+        if (!arguments.quiet && arguments.output.format == TableFormat::table)
+            console.out << '\n' << summary_text(findings);
+    }
+    return any;
+}
+
 /// The study with only these runs, and only the tables and pictures that need no other run.
 Study with_only_runs(const Study& study, const std::vector<RunReport>& reports) {
     std::vector<std::string> done;
@@ -113,6 +131,13 @@ Study with_only_runs(const Study& study, const std::vector<RunReport>& reports) 
 }
 
 } // namespace
+
+std::vector<RunReport> asked_for(const Study& study, const std::vector<RunReport>& reports) {
+    std::vector<RunReport> asked;
+    std::ranges::copy_if(reports, std::back_inserter(asked),
+                         [&](const RunReport& report) { return !atlas_that_made(study, report.name); });
+    return asked;
+}
 
 bool tell_failures(const std::vector<RunReport>& reports, const Console& console) {
     bool any = false;
@@ -173,8 +198,10 @@ void list_runs(const std::vector<RunReport>& reports, const ResultFile& file, co
 
 int finish_study(const Study& study, const std::vector<RunReport>& reports, ResultFile& file, const std::string& folder,
                  const StudyArguments& arguments, const Console& console) {
-    list_runs(reports, file, arguments, console);
-    const bool failed = tell_failures(reports, console);
+    const std::vector<RunReport> asked = asked_for(study, reports);
+    list_runs(asked, file, arguments, console);
+    bool failed = tell_failures(asked, console);
+    failed = tell_atlases(study, reports, file, arguments, console) || failed;
     if (is_interrupted(reports))
         return told_interruption(console);
     if (!arguments.no_pictures) {

@@ -24,12 +24,14 @@ std::optional<ResultFile> earlier_results(const Study& study, const std::string&
 bool is_interrupted(const std::vector<RunReport>& reports);
 /// Says that the same command goes on from there. @return the exit code
 int told_interruption(const Console& console);
+/// Leaves out the runs that atlases have made: what the atlases tell sums these up.
+std::vector<RunReport> asked_for(const Study& study, const std::vector<RunReport>& reports);
 /// Prints failed runs, with their remedies. @return true if there are any
 bool tell_failures(const std::vector<RunReport>& reports, const Console& console);
 /// Lists the runs with their results, unless nothing is to be listed.
 void list_runs(const std::vector<RunReport>& reports, const ResultFile& file, const StudyArguments& arguments,
                const Console& console);
-/// Lists the runs and failures, and draws the pictures. @return the exit code
+/// Lists the runs and failures, tells what atlases have found, and draws the pictures. @return the exit code
 int finish_study(const Study& study, const std::vector<RunReport>& reports, ResultFile& file, const std::string& folder,
                  const StudyArguments& arguments, const Console& console);
 

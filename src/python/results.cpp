@@ -1,15 +1,18 @@
+#include "graze/atlas/atlas_tables.hpp"
 #include "graze/results/orbit_motion.hpp"
 #include "graze/results/result_table.hpp"
 #include "graze/results/stored_orbit.hpp"
 #include "graze/results/stored_run.hpp"
 #include "graze/study/further_runs.hpp"
 #include "graze/study/run_summary.hpp"
+#include "graze/study/stored_study.hpp"
 #include "python/attended.hpp"
 #include "python/tables.hpp"
 
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <optional>
 
 namespace graze::python {
 
@@ -208,6 +211,17 @@ void bind_results(py::module_& module) {
                 return columns_of(std::move(table.rows), table.units);
             },
             py::arg("what"), py::arg("runs"), py::kw_only(), py::arg("label") = "", py::arg("direction") = "")
+        .def(
+            "findings",
+            [](const ResultFile& self, const std::string& run, const std::string& what) {
+                std::optional<Table> table;
+                {
+                    const Unlocked unlocked;
+                    table = atlas_table(atlas_findings(stored_study(self), run, self), what);
+                }
+                return columns_of(*table);
+            },
+            py::arg("run"), py::arg("what"))
         .def(
             "query",
             [](const ResultFile& self, const std::string& sql, const std::vector<std::string>& runs) {

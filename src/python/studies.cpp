@@ -1,3 +1,4 @@
+#include "graze/atlas/run_atlas.hpp"
 #include "graze/picture/result_picture.hpp"
 #include "graze/results/table_text.hpp"
 #include "graze/study/further_runs.hpp"
@@ -68,7 +69,11 @@ py::list carried_out(const Study& study, ResultFile& file, int threads, const st
                     now.parameter = record.point.parameter;
                 });
             };
-            reports = run_study(study, file, options, {.points = points_by(parts)});
+            Study whole = study; // atlases add runs to it
+            reports =
+                run_with_atlases(whole, file, options, [&](const Study& all, ResultFile& to, const RunnerOptions& now) {
+                    return run_study(all, to, now, {.points = points_by(parts)});
+                });
         },
         telling(told, [&] { return told_object(note.now()); }));
     py::list list;

@@ -56,10 +56,12 @@ Segment segment_named(const Model& model, const std::string& mode, const std::st
     return segment;
 }
 
-/// Removes details of events that the model does not have.
+/// Removes details of events that the model does not have, and of segments that the orbit does not have.
 template <class Detail>
-std::vector<Detail> of_known_events(std::vector<Detail> details, const Model& model) {
-    std::erase_if(details, [&](const Detail& one) { return one.event >= model.events.size(); });
+std::vector<Detail> of_known_events(std::vector<Detail> details, const Model& model, const Orbit& orbit) {
+    std::erase_if(details, [&](const Detail& one) {
+        return one.event >= model.events.size() || one.segment >= orbit.segments();
+    });
     return details;
 }
 
@@ -89,8 +91,9 @@ public:
         const Model& model = *context_.model;
         solution.multipliers = multipliers_.of_point(*run_, record.number);
         solution.half_multipliers = half_multipliers_.of_point(*run_, record.number);
-        solution.certificate.minima = of_known_events(minima_.of_point(context_, record.number), model);
-        solution.certificate.end_values = of_known_events(end_values_.of_point(context_, record.number), model);
+        solution.certificate.minima = of_known_events(minima_.of_point(context_, record.number), model, solution.orbit);
+        solution.certificate.end_values =
+            of_known_events(end_values_.of_point(context_, record.number), model, solution.orbit);
         return record;
     }
 

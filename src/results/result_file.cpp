@@ -32,7 +32,7 @@ void require_names(const RunRecord& run, const std::string& path) {
     if (!run_kind(run.kind))
         throw InputError(place, fmt::format("run '{}' is of unknown kind '{}'", run.name, run.kind),
                          "use the version of graze that wrote it");
-    if (((run.kind == "sweep" || run.is_followed()) && run.coordinates.empty()) ||
+    if (((run.is_swept() || run.is_followed()) && run.coordinates.empty()) ||
         (!run.is_branch() && run.directions.empty()))
         throw_contradiction(path, fmt::format("run '{}' varies nothing", run.name));
     require_plain_line(run.model_name, "name of a model", place);
@@ -57,6 +57,11 @@ std::int64_t needed_reader(const Database& database) {
 }
 
 } // namespace
+
+bool RunRecord::is_swept() const {
+    const auto known = run_kind(kind);
+    return known && graze::is_swept(*known);
+}
 
 bool RunRecord::is_branch() const {
     const auto known = run_kind(kind);
@@ -316,6 +321,11 @@ void ResultFile::name_points(const std::string& run, const std::vector<PointName
 
 void ResultFile::replace_model(const std::string& run, const std::string& model) {
     state_->at_once([&] { state_->database.prepare("UPDATE runs SET model = ? WHERE name = ?").run(model, run); });
+}
+
+void ResultFile::replace_settings(const std::string& run, const std::string& settings) {
+    state_->at_once(
+        [&] { state_->database.prepare("UPDATE runs SET settings = ? WHERE name = ?").run(settings, run); });
 }
 
 void ResultFile::set_note(const std::string& key, const std::string& text) {

@@ -22,7 +22,7 @@ constexpr std::array all_kinds{
     KindOfRun{"basin", Points::attractors},  KindOfRun{"orbit", Points::one_orbit},
     KindOfRun{"continue", Points::orbits},   KindOfRun{"curve", Points::orbits},
     KindOfRun{"ladder", Points::orbits},     KindOfRun{"record", Points::measured},
-    KindOfRun{"identify", Points::measured},
+    KindOfRun{"identify", Points::measured}, KindOfRun{"atlas", Points::attractors},
 };
 
 bool kind_has(RunKind kind, Points points) {
@@ -59,6 +59,10 @@ bool has_motions(RunKind kind) {
 
 bool seeks_attractors(RunKind kind) {
     return kind_has(kind, Points::attractors);
+}
+
+bool is_swept(RunKind kind) {
+    return kind == RunKind::sweep || kind == RunKind::atlas;
 }
 
 bool is_followed(RunKind kind) {

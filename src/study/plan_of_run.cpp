@@ -23,18 +23,18 @@ double drawn(const StudyRun& run, std::size_t axis, std::size_t point) {
 
 /// Number of values along the first axis of a sweep, in one direction.
 std::size_t sweep_length(const StudyRun& run) {
-    return run.kind == RunKind::sweep ? run.motion().axes.front().values.size() : 1;
+    return run.is_swept() ? run.motion().axes.front().values.size() : 1;
 }
 
 /// Number of points along the first axis of a sweep, in both directions.
 std::size_t row_length(const StudyRun& run) {
-    return sweep_length(run) * (run.kind == RunKind::sweep && run.motion().direction == SweepDirection::both ? 2 : 1);
+    return sweep_length(run) * (run.is_swept() && run.motion().direction == SweepDirection::both ? 2 : 1);
 }
 
 /// Number of combinations of values of the axes, each of which makes a row.
 std::size_t combinations(const StudyRun& run) {
     std::size_t count = 1;
-    for (std::size_t a = run.kind == RunKind::sweep ? 1 : 0; a < run.motion().axes.size(); ++a)
+    for (std::size_t a = run.is_swept() ? 1 : 0; a < run.motion().axes.size(); ++a)
         count *= std::max<std::size_t>(run.motion().axes[a].values.size(), 1);
     return count;
 }
@@ -45,7 +45,7 @@ std::size_t rows_of(const StudyRun& run) {
 
 /// Whether each point begins where the one before it in its row ended.
 bool carries_states(const StudyRun& run) {
-    return run.kind == RunKind::sweep && run.motion().carry;
+    return run.is_swept() && run.motion().carry;
 }
 
 /// The initial states that are functions of states and parameters.
@@ -80,7 +80,7 @@ std::vector<double> coordinates_of(const StudyRun& run, std::size_t point) {
         const Variation& axis = run.motion().axes[a];
         if (axis.values.empty()) {
             coordinates[a] = drawn(run, a, point);
-        } else if (a == 0 && run.kind == RunKind::sweep) {
+        } else if (a == 0 && run.is_swept()) {
             const std::size_t size = axis.values.size();
             const bool falling = run.motion().direction == SweepDirection::down || index >= size;
             coordinates[a] = axis.values[falling ? size - 1 - index % size : index];

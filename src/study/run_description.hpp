@@ -266,8 +266,15 @@ template <class Fields, class Run, class Motion, class Request>
 void describe_axes(Fields& fields, Run& run, Motion& motion, Request& request) {
     const bool points = run.has_motions();
     fields.form(
-        {"vary", "parameters or initial states that differ from point to point. Several lists make a grid", points},
-        "{ V = { from, to, step } }", &read_vary);
+        {"vary",
+         run.kind == RunKind::atlas
+             ? "one or two parameters, each with a list or a range of values. Motions follow the first; each value of "
+               "the second makes a row"
+             : "parameters or initial states that differ from point to point. Several lists make a grid",
+         points},
+        run.kind == RunKind::atlas ? "{ V = { from, to, points }, omega = { from, to, points } }"
+                                   : "{ V = { from, to, step } }",
+        &read_vary);
     fields.list("vary", motion.axes, [](auto& one, auto& axis) { describe_axis(one, axis); });
     fields.form({"from",
                  points ? "initial states (those of the model). They may be expressions in the varied parameters and "
@@ -287,20 +294,21 @@ void describe_axes(Fields& fields, Run& run, Motion& motion, Request& request) {
                 read_apart);
     fields.named("set", run.set, run.model.independent_parameters());
     if (fields.has("draws", motion.draws > 0)) {
+        const bool may_draw = points && run.kind != RunKind::atlas; // whose points are those of a grid
         fields.count(
-            {"draws", "number of points that are drawn at random for each combination of the listed values", points},
+            {"draws", "number of points that are drawn at random for each combination of the listed values", may_draw},
             motion.draws, {1});
-        fields.count({"seed", "seed of the random numbers", points}, motion.seed, any_seed);
+        fields.count({"seed", "seed of the random numbers", may_draw}, motion.seed, any_seed);
     }
-    if (run.kind == RunKind::sweep || run.is_followed())
+    if (run.is_swept() || run.is_followed())
         fields.choice(
             {"direction",
-             run.kind == RunKind::sweep
+             run.is_swept()
                  ? "direction of the first varied value: `both` is up, then down from where that ended"
                  : "direction of the parameter at first, since the branch turns at folds. It has no effect if "
                    "the run starts at a point and leads onto another branch, which has directions of its own"},
             request.direction, {"up", "down", "both"});
-    if (run.kind == RunKind::sweep)
+    if (run.is_swept())
         fields.truth(
             {"carry", "each point begins in the state in which the last one ended; `false`: in the initial state"},
             motion.carry);
@@ -317,6 +325,33 @@ void describe_integration(Fields& fields, const Run& run, Simulation& simulation
                   simulation.largest_step, positive_number);
     describe_fields(fields, "step_limit", simulation.step_limit, "contacts_at_once", simulation.contacts_at_once,
                     "touch", simulation.touch);
+}
+
+/// How far an exploration goes. It does not influence the points of the run; see sampling_settings_of.
+template <class Fields, class Limits>
+void describe_limits(Fields& fields, Limits& limits) {
+    fields.count({"contacts",
+                  "most contacts with barriers in one return (one period of the section) of orbits that are "
+                  "followed"},
+                 limits.contacts, {0, AtlasLimits::most_contacts});
+    fields.count({"multiple", "longest period, in returns, of orbits that are followed"}, limits.multiple,
+                 {1, AtlasLimits::most_multiple});
+    fields.count({"branches", "number of branches after which no further one is followed"}, limits.branches,
+                 {1, AtlasLimits::most_branches});
+    fields.count({"curves", "number of curves after which no further one is followed. Curves need a second parameter"},
+                 limits.curves, {0, AtlasLimits::most_curves});
+    fields.form({"starts", "ranges of initial states from which motions begin at random, besides those of the sweep "
+                           "(ranges about the extents of the sampled motions)"},
+                "{ x = [-1, 1], v = [-2, 2] }", &read_starts);
+    if (fields.has("starts", !limits.starts.empty()))
+        fields.list("starts", limits.starts, [](auto& one, auto& start) {
+            describe_fields(one, "state", start.state, "low", start.low, "high", start.high);
+        });
+    fields.count({"draws", "number of random initial states at every fourth value of each row"}, limits.draws,
+                 {0, AtlasLimits::most_draws});
+    fields.count({"seed", "seed of the random initial states"}, limits.seed, any_seed);
+    fields.number({"minutes", "time of exploration after which no further branch or curve is begun (no limit)"},
+                  limits.minutes, positive_number);
 }
 
 /// Runs that simulate. @param motion of a branch one without axes: what is stored of both is in the same order
@@ -360,6 +395,8 @@ void describe_simulated(Fields& fields, Run& run, Motion& motion, Request& reque
                 "\"RUN\" or [\"RUN\"]", &read_parameters);
     describe_if_given(fields, "parameters", run.parameters);
     describe_integration(fields, run, request.simulation);
+    if (run.kind == RunKind::atlas && fields.has("atlas", motion.atlas != AtlasLimits()))
+        fields.object("atlas", [&](auto& one) { describe_limits(one, motion.atlas); });
 }
 
 /// Records, and what is identified from them.

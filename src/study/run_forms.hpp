@@ -16,6 +16,8 @@ void read_start(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
 /// Runs of kind identify that find parameters.
 void read_parameters(const StudyReader& reader, StudyRun& run, const TomlEntry& entry);
 void read_skip(const StudyReader& reader, StudyRun& run, const TomlEntry& entry);
+/// The ranges of initial states of an atlas.
+void read_starts(const StudyReader& reader, StudyRun& run, const TomlEntry& entry);
 /// The events whose contacts are counted.
 void read_counted(const StudyReader& reader, StudyRun& run, const TomlEntry& entry);
 

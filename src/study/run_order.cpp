@@ -32,7 +32,7 @@ double MotionRequest::points() const {
 }
 
 double MotionRequest::rows(RunKind kind) const {
-    const bool swept = kind == RunKind::sweep && !axes.empty() && !axes.front().values.empty();
+    const bool swept = is_swept(kind) && !axes.empty() && !axes.front().values.empty();
     return swept ? points() / static_cast<double>(axes.front().values.size()) : points();
 }
 

@@ -24,7 +24,7 @@ const std::string part_mark = "graze-part-2\n", points_mark = "graze-points-1\n"
 std::unique_ptr<SearchFactory> searches_of(const StudyRun& run, const System& system) {
     const MotionRequest& motion = run.motion();
     AttractorOptions attractor = motion.attractor;
-    attractor.stay_in_transients = run.kind == RunKind::sweep && motion.carry;
+    attractor.stay_in_transients = run.is_swept() && motion.carry;
     return seeks_attractors(run.kind)
                ? attractor_searches(system, attractor, motion.samplings, run.values, motion.simulation)
                : transient_searches(system, motion.transient, motion.samplings, run.values, motion.simulation);

@@ -61,11 +61,20 @@ std::string fingerprint_from(const std::string& equations, const std::string& se
     return fingerprint_of(fmt::format("{} {} {} {}", version_of_algorithms, equations, settings, parent));
 }
 
+/// The settings that the numbers of a run depend on.
+std::string influential_settings(const StudyRun& run) {
+    if (run.kind != RunKind::atlas)
+        return settings_of(run);
+    StudyRun unlimited = run; // its own points are there before anything is explored
+    unlimited.motion().atlas = {};
+    return settings_of(unlimited);
+}
+
 } // namespace
 
 std::string run_fingerprint(const StudyRun& run, const std::string& parent_fingerprint) {
     require_fitting(run);
-    return fingerprint_from(write_equations(run.model), settings_of(run), parent_fingerprint);
+    return fingerprint_from(write_equations(run.model), influential_settings(run), parent_fingerprint);
 }
 
 RunRecord record_of(const StudyRun& run, const std::string& parent_fingerprint, std::size_t points) {
@@ -78,7 +87,7 @@ RunRecord record_of(const StudyRun& run, const std::string& parent_fingerprint, 
     record.settings = settings_of(run);
     record.version = GRAZE_VERSION;
     record.fingerprint = fingerprint_from(run.model.drawing ? write_equations(run.model) : record.model,
-                                          record.settings, parent_fingerprint);
+                                          influential_settings(run), parent_fingerprint);
     if (run.is_branch())
         add_found_parameters(run, record);
     if (run.kind == RunKind::record && !run.record().coordinate.empty())
@@ -124,7 +133,7 @@ WrittenRun written(const StudyRun& run) {
 std::vector<std::string> direction_names(const StudyRun& run) {
     if (run.kind == RunKind::record)
         return run.record().directions;
-    if ((run.kind != RunKind::sweep && !run.is_followed()) || run.kind == RunKind::ladder)
+    if ((!run.is_swept() && !run.is_followed()) || run.kind == RunKind::ladder)
         return {""};
     switch (run.is_branch() ? run.branch().direction : run.motion().direction) {
     case SweepDirection::up:

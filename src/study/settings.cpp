@@ -107,6 +107,16 @@ void check_record(const StudyRun& run, const SettingsReader& fields) {
             fields.fail("direction", "one of the run's");
 }
 
+void check_atlas(const StudyRun& run, const SettingsReader& fields) {
+    const MotionRequest& motion = run.motion();
+    if (motion.axes.size() > most_axes_of_atlas || motion.draws > 0 ||
+        !std::ranges::all_of(motion.axes, [](const Variation& axis) { return why_no_axis_of_atlas(axis).empty(); }))
+        fields.fail("vary", "one or two parameters with values in their order");
+    for (const AtlasStart& start : motion.atlas.starts)
+        if (!run.model.find_state(start.state) || !(start.low < start.high) || !std::isfinite(start.high - start.low))
+            fields.fail("starts", "ranges of states");
+}
+
 /// @throws InputError for settings that no study can have
 void check_run(const StudyRun& run, const SettingsReader& fields) {
     if (run.kind == RunKind::identify)
@@ -122,8 +132,10 @@ void check_run(const StudyRun& run, const SettingsReader& fields) {
     const MotionRequest& motion = run.motion();
     if (!(motion.points() <= most_points))
         fields.fail("vary", "something with less than a thousand million points");
-    if (run.kind == RunKind::sweep && (motion.axes.empty() || motion.axes.front().values.empty()))
+    if (run.is_swept() && (motion.axes.empty() || motion.axes.front().values.empty()))
         fields.fail("vary", "something to sweep along");
+    if (run.kind == RunKind::atlas)
+        check_atlas(run, fields);
     if (!(motion.rows(run.kind) <= most_rows))
         fields.fail("vary", "something with less than twenty million points that begin by themselves");
     for (const Sampling& sampling : motion.samplings) {

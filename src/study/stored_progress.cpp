@@ -73,6 +73,8 @@ bool is_done(const RunRecord& record, ResultFile& file) {
     const bool same = stored && stored->fingerprint == record.fingerprint && has_columns_of(*stored, record);
     if (same && stored->model != record.model) // which differ in their drawing only
         file.replace_model(record.name, record.model);
+    if (same && stored->settings != record.settings) // which differ in the limits of an exploration only
+        file.replace_settings(record.name, record.settings);
     if (same && (stored->status == RunStatus::complete || lacks_orbits(*stored, file)))
         return true;
     if (!same || record.is_branch())

@@ -146,6 +146,7 @@ public:
     void go_on_from(const Study& earlier) {
         study_.runs = earlier.runs;
         names_ = names_of(earlier.runs);
+        goes_on_ = true;
     }
 
     Study read(const toml::table& root) {
@@ -263,8 +264,28 @@ private:
                 mistakes_.attempt([&] { check_start(reader_, run, *parent, keys_[run.name]); });
     }
 
+    /// Refuses names that the exploration of an atlas gives to the runs that it adds.
+    void check_reserved_names() {
+        std::set<std::string> atlases; // in small letters
+        for (const StudyRun& run : study_.runs)
+            if (run.kind == RunKind::atlas)
+                atlases.insert(in_small_letters(run.name));
+        for (const StudyRun& run : study_.runs)
+            for (std::size_t dot = run.name.find('.'); dot != std::string::npos; dot = run.name.find('.', dot + 1))
+                if (const std::string atlas = run.name.substr(0, dot); atlases.contains(in_small_letters(atlas)))
+                    mistakes_.attempt([&] {
+                        throw InputError(run.place,
+                                         fmt::format("run '{}' has a name of those that the atlas '{}' adds, which "
+                                                     "begin with '{}.'",
+                                                     run.name, atlas, atlas),
+                                         "choose another name");
+                    });
+    }
+
     /// Each name against those that could be its likes, rather than against all.
     void check_names() {
+        if (!goes_on_)
+            check_reserved_names();
         std::map<std::string, std::vector<std::string>> alike;
         for (const std::string& name : names_)
             alike[in_small_letters(name)].push_back(name);
@@ -323,6 +344,7 @@ private:
     std::vector<std::string> names_, picture_names_; ///< including those of entries that could not be read
     std::map<std::string, RunKeys> keys_;
     std::size_t values_ = 0; ///< number of values of all axes
+    bool goes_on_ = false;   ///< from another study, as an exploration does
 };
 
 } // namespace

@@ -177,7 +177,7 @@ void check_start(const StudyReader& reader, const StudyRun& run, const StudyRun&
     if (start.direction && !start.coordinate)
         fail_start(start, "`direction` chooses among the points nearest to `at`, which is not given",
                    "write at = { PARAMETER = VALUE }, or leave it out");
-    if (start.direction && parent.kind != RunKind::sweep && !parent.is_followed())
+    if (start.direction && !parent.is_swept() && !parent.is_followed())
         fail_start(start, fmt::format("runs of kind \"{}\" have no direction", name_of(parent.kind)), "leave it out");
     if (!start.onto.empty() && !(parent.is_branch() && run.is_branch()))
         fail_start(start, "`onto` chooses a branch, and leads from an orbit to an orbit", "leave it out");

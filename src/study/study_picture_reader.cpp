@@ -63,8 +63,8 @@ void read_font(const StudyReader& reader, const TomlEntry& entry, StudyPicture& 
 }
 
 std::vector<std::string> picture_kinds() {
-    return {"bifurcation", "branch",   "basin",      "map",     "history",  "portrait",
-            "poincare",    "spectrum", "regression", "scatter", "residuals"};
+    return {"bifurcation", "branch",   "atlas",    "basin",      "map",     "history",
+            "portrait",    "poincare", "spectrum", "regression", "scatter", "residuals"};
 }
 
 void require_few(std::size_t count, std::size_t most, const char* what, const TomlEntry& entry) {

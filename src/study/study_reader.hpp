@@ -170,6 +170,12 @@ const std::vector<std::string>& monitor_kinds();
 void complete_branch(StudyRun& run, const RunKeys& keys);
 /// @throws InputError when they do not go together
 void check_branch(const StudyReader& reader, const StudyRun& run, const TomlEntry& entry, const RunKeys& keys);
+/// How many parameters the box of an atlas has at most.
+inline constexpr std::size_t most_axes_of_atlas = 2;
+/// Why an axis is none of an atlas, as the end of a sentence that begins with its name; empty: it is one.
+std::string why_no_axis_of_atlas(const Variation& axis);
+/// @throws InputErrors when the keys of an atlas that was read do not go together
+void check_atlas(const StudyReader& reader, const StudyRun& run, const RunKeys& keys);
 /// Adds the parameters of a table `set` to StudyRun::set.
 void note_set(const StudyReader& reader, StudyRun& run, const TomlEntry& entry);
 /// Sets defaults of runs in study files that depend on the kind and the model.

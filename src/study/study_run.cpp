@@ -18,6 +18,9 @@ void set_standards(StudyRun& run) {
     // Users ask where a branch or a curve lies, in both directions; a sweep is a motion and goes in one.
     if (run.kind == RunKind::follow || run.kind == RunKind::curve)
         run.branch().direction = SweepDirection::both;
+    // An atlas shows what there is, whichever way one comes.
+    if (run.kind == RunKind::atlas)
+        run.motion().direction = SweepDirection::both;
     if (run.is_branch())
         run.branch().settings.monitors = usual_monitors(run.model);
 }
@@ -114,7 +117,7 @@ void complete(StudyRun& run, const TomlEntry& entry) {
     if (run.is_branch())
         return;
     const std::vector<Variation>& axes = run.motion().axes;
-    if (run.kind == RunKind::sweep && (axes.empty() || axes.front().values.empty()))
+    if (run.is_swept() && (axes.empty() || axes.front().values.empty()))
         throw InputError(entry.place, fmt::format("{} sweeps nothing", entry.path),
                          "give vary = { PARAMETER = { from = A, to = B, step = S } }");
 }
@@ -236,7 +239,7 @@ void read_contents(const StudyReader& reader, StudyRun& run, const TomlEntry& en
         mistakes.attempt([&] { read_values(reader, run, *defaults.values); });
     if (run.has_motions() && !fields.is_wrong({"vary", "draws", "seed"}))
         mistakes.attempt([&] {
-            check_draws(reader, run, entry, keys);
+            run.kind == RunKind::atlas ? check_atlas(reader, run, keys) : check_draws(reader, run, entry, keys);
             if (keys.contains("vary"))
                 check_points(reader, run, keys.at("vary"));
         });

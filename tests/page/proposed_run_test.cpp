@@ -287,6 +287,16 @@ TEST(ProposedRun, ASweepGoesOnFromTheOrbit) {
     EXPECT_EQ(Results::get().file().point_count(proposed.name), 201U);
 }
 
+// Names that begin with that of an atlas and a dot are those of the runs that it adds.
+TEST(ProposedRun, FromARunOfAnAtlasHasANameOfItsOwn) {
+    const OneStudy one("name = \"s\"\nmodel = \"impact-oscillator\"\n[runs.\"map.b1\"]\nkind = \"simulate\"\n"
+                       "periods = 3\n");
+    const ProposedRun proposed = one.propose("map.b1", 0, {.action = "simulate"});
+    EXPECT_EQ(proposed.name, "map-b1-0-simulate");
+    const OneStudy both(one.text + proposed.text);
+    EXPECT_EQ(both.study.find_run(proposed.name)->start->run, "map.b1");
+}
+
 TEST(ProposedRun, TheOrbitOfAPointOfASweep) {
     Results& results = Results::get();
     const auto periodic = [&] {

@@ -63,6 +63,17 @@ TEST_F(RunsJson, TellsWhichRunsOfAStudyAreMissing) {
     EXPECT_EQ(runs_json(file(), &longer).size(), file().runs().size());
 }
 
+TEST_F(RunsJson, SaysOfAnAtlasWhatItIs) {
+    const Study study = parse_study("name = \"s\"\nmodel = \"impact-oscillator\"\n[runs.map]\nkind = \"atlas\"\n"
+                                    "vary = { omega = [2.7, 2.8] }\n",
+                                    "s.toml");
+    const nlohmann::json map = run_named(runs_json(file(), &study), "map");
+    EXPECT_EQ(map["kind"], "atlas");
+    EXPECT_EQ(map["kind_words"], "an atlas of attractors and branches");
+    EXPECT_EQ(map["seeks_attractors"], true);
+    EXPECT_EQ(map["planned"], 4); // up and down
+}
+
 /// Files with a run whose texts somebody else has chosen.
 class HostileRuns : public ::testing::Test {
 protected:

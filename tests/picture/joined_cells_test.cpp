@@ -18,6 +18,20 @@ TEST(JoinedCells, OfARowBecomeOneBox) {
     EXPECT_EQ(series.cells.size(), 5U);
 }
 
+TEST(JoinedCells, OfEqualRowsBecomeOneBox) {
+    FigureSeries series{.style = FigureSeries::Style::cells};
+    // Two equal rows and a shorter one; apart from them a cell, and one above it after a gap.
+    series.cells = {{0, 1, 0, 1}, {1, 2, 0, 1}, {4, 5, 0, 1}, {0, 1, 1, 2}, {1, 2, 1, 2}, {0, 1, 2, 3}, {4, 5, 2, 3}};
+    series.numbers = {1, 2, 3, 4, 5, 6, 7};
+    const std::vector<PlaneBox> joined = joined_cells(series);
+    ASSERT_EQ(joined.size(), 4U);
+    EXPECT_EQ(joined[0].right, 2);
+    EXPECT_EQ(joined[0].high, 2);
+    EXPECT_EQ(joined[1].high, 1);
+    EXPECT_EQ(joined[2].right, 1);
+    EXPECT_EQ(joined[3].low, 2);
+}
+
 TEST(JoinedCells, AreThoseOfStoredPointsOnly) {
     FigureSeries bars{.style = FigureSeries::Style::cells};
     bars.cells = {{0, 1, 0, 5}, {1, 2, 0, 5}};

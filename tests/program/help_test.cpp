@@ -16,7 +16,7 @@ using ::testing::StartsWith;
 const std::vector<std::string> commands{"check",     "models", "simulate",   "run",     "info",     "export",
                                         "plot",      "points", "orbit",      "grazing", "trip",     "ladder",
                                         "tolerance", "design", "layout",     "record",  "identify", "bench",
-                                        "acquire",   "help",   "completion", "view",    "merge"};
+                                        "acquire",   "help",   "completion", "view",    "merge",    "atlas"};
 
 /// The output of a shell command.
 std::string printed_by(const std::string& command) {

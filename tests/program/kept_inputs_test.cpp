@@ -99,6 +99,10 @@ std::map<std::string, std::vector<InputInFolder>> inputs_in_folders() {
         {"acquire",
          {{"manifest.txt", experiment, {"--port", "nowhere", "--device", "tcp:127.0.0.1:1"}},
           {"settings.txt", experiment, {"--port", "nowhere", "--device", "tcp:127.0.0.1:1"}}}},
+        {"atlas",
+         {{"atlas.csv",
+           contents(source + "/tests/atlas/truth/cubic-map.toml"),
+           {"--along", "a=0.5:1:3", "--quiet", "--draws", "0", "--multiple", "1"}}}},
         {"merge", {}}, // its inputs are databases, which no output replaces
         {"view", {}},  // it writes a result file only, when it is asked to compute
         {"help", {}},

@@ -47,10 +47,12 @@ const std::map<std::string, Words>& refused_values() {
 /// Types whose values only the command itself can check, since it needs the model or the file.
 const std::set<std::string>& judged_by_commands() {
     static const std::set<std::string> all{
-        "FILE",  "FOLDER", "PATH",  "NAME",   "EXPR",  "RUN",     "WAY",        "LABEL",     "QUERY",      "POINT",
-        "TYPE",  "FOUND",  "TEXT",  "KIND",   "AXIS",  "TABLE",   "MODE",       "STATE",     "X,Y",        "NAMES",
-        "PARTS", "RULE",   "VALUE", "VALUES", "A:B",   "RATES",   "AMPLITUDES", "LEVELS",    "LOW:HIGH",   "W[xH]",
-        "K/N",   "FONT",   "T",     "DT",     "MODES", "ADDRESS", "COMMAND",    "NAME=TEXT", "NAME=VALUE", "NAME=SIZE"};
+        "FILE",     "FOLDER",  "PATH",      "NAME",       "EXPR",      "RUN",          "WAY",
+        "LABEL",    "QUERY",   "POINT",     "TYPE",       "FOUND",     "TEXT",         "KIND",
+        "AXIS",     "TABLE",   "MODE",      "STATE",      "X,Y",       "NAMES",        "PARTS",
+        "RULE",     "VALUE",   "VALUES",    "A:B",        "RATES",     "AMPLITUDES",   "LEVELS",
+        "LOW:HIGH", "W[xH]",   "K/N",       "FONT",       "T",         "DT",           "MODES",
+        "ADDRESS",  "COMMAND", "NAME=TEXT", "NAME=VALUE", "NAME=SIZE", "NAME=FROM:TO", "STATE=LOW:HIGH"};
     return all;
 }
 

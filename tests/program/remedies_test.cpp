@@ -86,7 +86,7 @@ std::map<std::string, std::string> commands() {
     for (const char* name :
          {"models", "check",     "simulate", "run",    "points",     "orbit",    "grazing", "trip",
           "ladder", "tolerance", "design",   "layout", "record",     "identify", "bench",   "acquire",
-          "export", "plot",      "info",     "help",   "completion", "view",     "merge"}) {
+          "export", "plot",      "info",     "help",   "completion", "view",     "merge",   "atlas"}) {
         const std::string help = done(std::string(name) + " --help");
         result[name] = help;
     }

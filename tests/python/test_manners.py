@@ -131,7 +131,7 @@ def test_progress_that_returns_false_stops_and_keeps_what_was_computed():
     assert told == sorted(told)
     motion = stopped.value.motion
     assert motion.ending == "interrupted"
-    assert motion.end_time >= told[-1][1]
+    assert motion.end_time >= told[-1][1] * (1 - 1e-15)  # both are sums of the same times, rounded otherwise
     # What was computed is the beginning of the motion.
     exact = graze.simulate(model, contacts=5, samples=0).contacts
     assert motion.contacts.rows(slice(0, 5)) == exact

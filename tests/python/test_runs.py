@@ -693,3 +693,32 @@ def test_no_folder_is_left_by_an_interruption_while_it_is_made(tmp_path, monkeyp
         OwnFolder().path
     gc.collect()
     assert os.listdir(tmp_path) == ["graze-other"]  # of another process
+
+
+def test_an_atlas_explores_and_its_findings_are_tables(tmp_path):
+    model = os.path.join(os.path.dirname(__file__), "..", "atlas", "truth", "cubic-map.toml")
+    text = f"""name = "maps"
+model = "{os.path.abspath(model)}"
+[runs.map]
+kind = "atlas"
+vary = {{ a = {{ from = 0.5, to = 1.9, points = 15 }} }}
+multiple = 1
+starts = {{ x = [-2, 2] }}
+draws = 8
+"""
+    (tmp_path / "maps.toml").write_text(text)
+    study = graze.run_study(tmp_path / "maps.toml", output=tmp_path / "maps")
+    points = study["map"].findings()
+    assert list(points["name"]) == ["SN1", "PD1"]
+    fold, flip = points["a"]
+    assert fold == pytest.approx(1 + 3 * 0.05 ** (2 / 3), abs=1e-12)  # 27 b^2 = 4 (a - 1)^3, b = 0.1
+    assert 27 * 0.1**2 == pytest.approx(4 * (flip + 1) * (2 - flip) ** 2, abs=1e-11)
+    assert set(study["map"].findings("motions")["claim"]) == {"explained", "beyond limits", "not periodic"}
+    assert "PD1" in [point.label for point in study["map.branch1"].special]
+    with pytest.raises(graze.InputError, match="curves, points, branches, motions, left"):
+        study["map"].findings("nothing")
+    with pytest.raises(graze.InputError, match="there is no atlas"):
+        study["map.branch1"].findings()
+    program_says = subprocess.run([program(), "atlas", str(tmp_path / "maps"), "--what", "points", "--format", "csv"],
+                                  capture_output=True, text=True, check=True)
+    assert program_says.stdout.splitlines()[1].startswith("SN1,SN,fold,1.407")

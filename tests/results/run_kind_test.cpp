@@ -11,10 +11,16 @@ TEST(RunKind, NamesMapBackToKinds) {
         EXPECT_EQ(run_kind(name_of(one)), one);
         EXPECT_EQ(has_motions(one) + is_branch(one) + is_measured(one), 1) << name_of(one);
     }
-    EXPECT_EQ(name_of(RunKind::identify), "identify"); // the last kind
+    EXPECT_EQ(name_of(RunKind::atlas), "atlas"); // the last kind
     EXPECT_EQ(run_kind("continue"), RunKind::follow);
     EXPECT_EQ(run_kind("follow"), std::nullopt);
     EXPECT_EQ(name_of(static_cast<RunKind>(99)), "unknown");
+}
+
+TEST(RunKind, SweepsAndAtlasesAreSwept) {
+    for (const std::string& name : kinds_of_runs())
+        EXPECT_EQ(is_swept(*run_kind(name)), name == "sweep" || name == "atlas") << name;
+    EXPECT_TRUE(seeks_attractors(RunKind::atlas));
 }
 
 TEST(RunKind, AnOrbitIsNotFollowed) {

@@ -25,11 +25,14 @@ std::string standard_of(RunKind kind, const std::string& name) {
     return "there is no such key";
 }
 
-/// A sweep with one more line.
+/// A run of a kind that varies parameters, with one more line.
+std::string run_with(RunKind kind, const std::string& vary, const std::string& line) {
+    return fmt::format("name = \"s\"\nmodel = \"impact-oscillator\"\n[runs.a]\nkind = \"{}\"\nvary = {}\n{}\n",
+                       name_of(kind), vary, line);
+}
+
 std::string sweep_with(const std::string& line) {
-    return "name = \"s\"\nmodel = \"impact-oscillator\"\n[runs.a]\nkind = \"sweep\"\n"
-           "vary = { omega = [2.7, 2.8] }\n" +
-           line + "\n";
+    return run_with(RunKind::sweep, "{ omega = [2.7, 2.8] }", line);
 }
 
 TEST(StudyKeys, EachIsListedOnceWithAMeaning) {
@@ -59,6 +62,10 @@ TEST(StudyKeys, TellTheirDefaults) {
     EXPECT_EQ(standard_of(RunKind::follow, "unphysical"), "false");
     EXPECT_EQ(standard_of(RunKind::sweep, "disturbance"), "1e-6");
     EXPECT_EQ(standard_of(RunKind::simulate, "time"), ""); // without end
+    EXPECT_EQ(standard_of(RunKind::atlas, "direction"), "both");
+    EXPECT_EQ(standard_of(RunKind::atlas, "branches"), "300");
+    EXPECT_EQ(standard_of(RunKind::atlas, "draws"), "2");
+    EXPECT_EQ(standard_of(RunKind::atlas, "minutes"), "");
 }
 
 TEST(StudyKeys, AreRefusedInRunsOfOtherKinds) {
@@ -72,13 +79,13 @@ TEST(StudyKeys, AreRefusedInRunsOfOtherKinds) {
 }
 
 // What is listed is what the reader does: it takes the ends of each range, and nothing beyond.
-TEST(StudyKeys, OfASweepAreTakenInTheirRangesAndRefusedBeyond) {
-    const std::set<std::string> needs_others{"draws", "seed"};
-    for (const StudyKey& key : study_keys(RunKind::sweep)) {
+void expect_ranges(RunKind kind, const std::string& vary, const std::set<std::string>& left_out) {
+    for (const StudyKey& key : study_keys(kind)) {
         const auto takes = [&](const std::string& value) {
-            return testing::message_of([&] { parse_study(sweep_with(key.name + " = " + value), "s.toml"); }).empty();
+            const std::string text = run_with(kind, vary, key.name + " = " + value);
+            return testing::message_of([&] { parse_study(text, "s.toml"); }).empty();
         };
-        if (needs_others.contains(key.name))
+        if (left_out.contains(key.name))
             continue;
         if (key.type == "whole number" && key.name != "order") { // whose range depends on its other options
             EXPECT_TRUE(takes(fmt::format("{:.0f}", *key.least))) << key.name;
@@ -101,6 +108,16 @@ TEST(StudyKeys, OfASweepAreTakenInTheirRangesAndRefusedBeyond) {
             EXPECT_FALSE(takes("0")) << key.name;
         }
     }
+}
+
+TEST(StudyKeys, OfASweepAreTakenInTheirRangesAndRefusedBeyond) {
+    const std::set<std::string> needs_others{"draws", "seed"};
+    expect_ranges(RunKind::sweep, "{ omega = [2.7, 2.8] }", needs_others);
+}
+
+TEST(StudyKeys, OfAnAtlasAreTakenInTheirRangesAndRefusedBeyond) {
+    const std::set<std::string> beyond_doubles{"seed"}; // the end of its range is no floating-point number
+    expect_ranges(RunKind::atlas, "{ omega = [2.7, 2.8], e = [0.7, 0.8] }", beyond_doubles);
 }
 
 TEST(StudySchema, HasTheKeysOfEveryKind) {

@@ -25,9 +25,11 @@ struct PlaneBox {
 struct FigureSeries {
     enum class Style { dots, circles, line, dashed, dotted, impulses, symbols, cells };
     static constexpr std::size_t grey = 1000, black = 1001; ///< colours outside of the palette
-    std::string title{};                                    ///< plain text; empty: no entry in the legend
+    /// Added to a colour: a light tint of it, on which lines and letters can be read.
+    static constexpr std::size_t pale = 2000;
+    std::string title{}; ///< plain text; empty: no entry in the legend
     Style style = Style::dots;
-    std::size_t colour = 0;             ///< index in the palette, or `grey` or `black`
+    std::size_t colour = 0;             ///< index in the palette, or `grey` or `black`; or `pale` more
     std::vector<PlanePoint> points{};   ///< a point that is not finite interrupts a line
     int symbol = 7;                     ///< for symbols: number of gnuplot's point type
     bool only_in_legend = false;        ///< has no points and explains a style in the legend

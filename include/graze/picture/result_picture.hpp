@@ -17,5 +17,8 @@ struct ResultPicture {
 ResultPicture make_picture(const StudyPicture& picture, const ResultFile& file);
 /// The picture of a run when the study describes none; it depends on the kind of the run.
 StudyPicture default_picture(const RunRecord& run);
+/// Whether a run is drawn where no picture is described: those that an atlas has made ("map.branch1") are not, since
+/// the picture of the atlas shows them.
+bool has_own_picture(const RunRecord& run, const ResultFile& file);
 
 } // namespace graze

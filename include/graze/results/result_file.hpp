@@ -42,7 +42,7 @@ struct PointName {
 /// Description of a run, without its points.
 struct RunRecord {
     std::string name; ///< letters, digits, '.', '_' and '-'
-    std::string kind; ///< simulate, sweep, basin, orbit, continue, curve, ladder, record, identify
+    std::string kind; ///< simulate, sweep, basin, orbit, continue, curve, ladder, record, identify, atlas
     std::string model_name;
     std::string model;       ///< complete text of the model file
     std::string settings;    ///< JSON object
@@ -60,7 +60,8 @@ struct RunRecord {
     std::string failure = {};                ///< why the run failed and what to do, as one line of printable characters
     std::vector<PointName> point_names = {}; ///< names that the study gives to special points
 
-    /// See is_branch and is_followed of RunKind.
+    /// See is_swept, is_branch and is_followed of RunKind.
+    bool is_swept() const;
     bool is_branch() const;
     bool is_followed() const;
     /// The name of the point with this label, shown in place of the label; the label itself if the point has no name.
@@ -124,6 +125,8 @@ public:
     void name_points(const std::string& run, const std::vector<PointName>& names);
     /// Replaces the text of a run's model by one of the same equations, with another drawing.
     void replace_model(const std::string& run, const std::string& model);
+    /// Replaces the settings of a run by others that lead to the same points.
+    void replace_settings(const std::string& run, const std::string& settings);
     /// Removes a run with its points and all other rows.
     void remove_run(const std::string& name);
     /// Adds a point to a run. It is committed when a later point is added, after 50 ms at the earliest, or by `flush`.

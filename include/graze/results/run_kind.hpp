@@ -17,7 +17,8 @@ enum class RunKind {
     curve,    ///< a curve of special points in two parameters
     ladder,   ///< a sequence of grazing orbits, each found from the one before
     record,   ///< measured records
-    identify  ///< parameters fitted to measured records
+    identify, ///< parameters fitted to measured records
+    atlas     ///< a sweep over a box of parameters, from which an exploration of all branches and curves begins
 };
 
 /// The names of all kinds, in the order of RunKind.
@@ -31,6 +32,8 @@ std::optional<RunKind> run_kind(std::string_view name);
 bool has_motions(RunKind kind);
 /// Whether each of these motions is followed until it has settled on an attractor, rather than for a given time.
 bool seeks_attractors(RunKind kind);
+/// Whether motions are carried along the first varied value, in one direction or both.
+bool is_swept(RunKind kind);
 /// Whether runs of this kind follow orbits along a branch, a curve or a ladder.
 bool is_followed(RunKind kind);
 /// Whether the points of runs of this kind are periodic orbits.

@@ -2,6 +2,7 @@
 
 #include "graze/model/model.hpp"
 #include "graze/results/run_kind.hpp"
+#include "graze/study/atlas_limits.hpp"
 #include "graze/sweep/attractor.hpp"
 #include "graze/sweep/sampling.hpp"
 #include "graze/trajectory/simulation.hpp"
@@ -43,7 +44,7 @@ struct VariedValues {
     std::uint64_t seed = 1;                        ///< of what is random
 };
 
-/// What runs of the kinds simulate, sweep and basin ask for.
+/// What runs of the kinds simulate, sweep, basin and atlas ask for.
 struct MotionRequest : VariedValues {
     std::vector<FollowingState> following; ///< initial states that are computed anew for each point
     std::size_t draws = 0;      ///< random points for each combination of the listed values; 0: nothing is random
@@ -51,6 +52,7 @@ struct MotionRequest : VariedValues {
     AttractorOptions attractor; ///< of sweeps and basins: how the attractor is found
     SimulationOptions simulation;
     std::vector<Sampling> samplings;
+    AtlasLimits atlas; ///< of kind atlas: what is explored from the sampled attractors
 
     /// How many points there are, and how many rows they make: sweeps have a row for each combination of the values of
     /// the axes after the first. Numbers too large to be counted are possible.

@@ -11,8 +11,8 @@
 
 namespace graze {
 
-/// Returns all settings that the results of a run depend on, except its model and the runs that it needs, as a JSON
-/// object.
+/// Returns all settings that the results of a run depend on, except its model and the runs that it needs, and those of
+/// the exploration of an atlas, as a JSON object.
 std::string settings_of(const StudyRun& run);
 /// Returns all settings of a picture as a JSON object.
 std::string settings_of(const StudyPicture& picture);

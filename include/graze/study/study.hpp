@@ -83,6 +83,7 @@ struct StudyRun {
     /// Names of the samplings of its points.
     std::vector<std::string> sampling_names() const;
     bool has_motions() const { return graze::has_motions(kind); }
+    bool is_swept() const { return graze::is_swept(kind); }
     bool is_branch() const { return graze::is_branch(kind); }
     bool is_followed() const { return graze::is_followed(kind); }
     bool is_measured() const { return graze::is_measured(kind); }
