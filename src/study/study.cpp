@@ -25,18 +25,18 @@ const StudyRun* Study::find_run(const std::string& run) const {
 
 void StudyRun::set_kind(RunKind of_kind) {
     kind = of_kind;
-    const auto set = [this](auto wanted) {
+    const auto choose = [this](auto wanted) {
         if (!std::holds_alternative<decltype(wanted)>(request))
             request = std::move(wanted);
     };
     if (is_branch())
-        set(BranchRequest());
+        choose(BranchRequest());
     else if (kind == RunKind::record)
-        set(RecordRequest());
+        choose(RecordRequest());
     else if (kind == RunKind::identify)
-        set(IdentifyRequest());
+        choose(IdentifyRequest());
     else
-        set(MotionRequest());
+        choose(MotionRequest());
 }
 
 void StudyRun::refuse_request() const {

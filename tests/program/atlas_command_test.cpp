@@ -1,6 +1,7 @@
 #include "program/run_graze.hpp"
 
 #include "atlas/truth/cubic_map.hpp"
+#include "places.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -126,7 +127,7 @@ TEST_F(AtlasCommand, RunsOfAStudyAreToldAlike) {
 TEST_F(AtlasCommand, PartsExploreAsOneProcessDoes) {
     const std::string study = path("study.toml");
     std::ofstream(study) << "name = \"maps\"\nmodel = \"" << model
-                         << "\"\n[runs.map]\nkind = \"atlas\"\nvary = { a = { from = 0.5, to = 1.9, points = 15 }, "
+                         << "\"\n[runs.map]\nkind = \"atlas\"\nvary = { a = { from = 0.5, to = 1.9, points = 5 }, "
                             "b = [0.1, 0.2] }\nmultiple = 1\ndraws = 1\n";
     done({"run", study, "--output", path("whole"), "--no-pictures"});
     const auto part = [&](const std::string& number) {
