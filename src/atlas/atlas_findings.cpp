@@ -30,13 +30,6 @@ bool is_of_codimension_two(PointType type) {
     return type >= PointType::cusp && type <= PointType::flip_torus;
 }
 
-/// Whether a run is no longer to be computed. Samples are complete; a branch may have failed.
-bool is_done(const StudyRun& run, const ResultFile& file) {
-    const auto record = file.find_run(run.name);
-    const bool may_fail = run.kind != RunKind::atlas;
-    return record && record->status != RunStatus::unfinished && (may_fail || record->status == RunStatus::complete);
-}
-
 bool crosses(const AtlasCurve& curve, double value, double low, double high) {
     for (std::size_t i = 0; i + 1 < curve.line.size(); ++i) {
         const auto& [x1, y1] = curve.line[i];
@@ -423,11 +416,8 @@ AtlasFindings atlas_findings(const Study& study, const std::string& run, const R
     AtlasFindings findings;
     findings.run = run;
     Exploration exploration(study, *atlas, file);
-    const bool computed = is_done(*atlas, file) && std::ranges::all_of(study.runs, [&](const StudyRun& one) {
-                              return !is_made_by(one.name, run) || is_done(one, file);
-                          });
     const bool is_left = !exploration.next().empty();
-    findings.finished = computed && !is_left;
+    findings.finished = !is_left && is_computed(study, *atlas, file);
     findings.limited = exploration.is_limited();
     Summary(exploration, findings).make();
     return findings;

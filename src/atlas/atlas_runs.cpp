@@ -142,8 +142,6 @@ private:
             sample.number = point->number;
             sample.value = point->coordinates[columns[0]];
             sample.row = runs_.has_rows() ? row_of(point->coordinates[columns[1]]) : 0;
-            if (point->direction < record->directions.size())
-                sample.direction = record->directions[point->direction];
             sample.result = std::move(point->result);
             sample.result.samples = {};
             count_contacts(sample);
@@ -278,6 +276,16 @@ const FollowedRun* AtlasRuns::find(const std::string& run) const {
 
 bool is_made_by(const std::string& run, const std::string& atlas) {
     return run.size() > atlas.size() + 1 && run.starts_with(atlas) && run[atlas.size()] == '.';
+}
+
+bool is_computed(const Study& study, const StudyRun& atlas, const ResultFile& file) {
+    return std::ranges::all_of(study.runs, [&](const StudyRun& run) {
+        const bool is_made = is_made_by(run.name, atlas.name);
+        if (!is_made && run.name != atlas.name)
+            return true;
+        const auto record = file.find_run(run.name);
+        return record && (record->status == RunStatus::complete || (is_made && record->status == RunStatus::failed));
+    });
 }
 
 AtlasRuns read_atlas(const Study& study, const StudyRun& atlas, const ResultFile& file) {

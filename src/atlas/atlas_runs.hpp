@@ -52,7 +52,6 @@ struct SampledMotion {
     std::size_t number = 0;
     std::size_t row = 0;
     double value = 0;         ///< of the first parameter
-    std::string direction;    ///< of the sweep
     PointResult result;       ///< without samples
     std::size_t contacts = 0; ///< with barriers, in one period
     bool accumulates = false; ///< contacts accumulate within the period
@@ -76,6 +75,10 @@ struct AtlasRuns {
 
 /// Names of runs that an atlas makes: "map.branch3".
 bool is_made_by(const std::string& run, const std::string& atlas);
+
+/// Whether an atlas and the runs that it has made are no longer to be computed: samples are complete; branches and
+/// curves may have failed.
+bool is_computed(const Study& study, const StudyRun& atlas, const ResultFile& file);
 
 /// Reads what is there of an atlas. @param atlas run of the study, valid as long as the study
 AtlasRuns read_atlas(const Study& study, const StudyRun& atlas, const ResultFile& file);

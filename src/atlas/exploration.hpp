@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <map>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace graze {
@@ -13,9 +12,6 @@ namespace graze {
 /// What an atlas has met and does not go on from, and why.
 struct LeftOut {
     std::string what, where, why;
-    bool operator<(const LeftOut& other) const {
-        return std::tie(what, why, where) < std::tie(other.what, other.why, other.where);
-    }
 };
 
 /// Decides what an atlas computes next.

@@ -12,21 +12,22 @@ namespace graze {
 
 namespace {
 
-std::vector<const StudyRun*> atlases_of(const Study& study) {
-    std::vector<const StudyRun*> atlases;
+/// Names of the runs of kind atlas.
+std::vector<std::string> atlases_of(const Study& study) {
+    std::vector<std::string> names;
     for (const StudyRun& run : study.runs)
         if (run.kind == RunKind::atlas)
-            atlases.push_back(&run);
-    return atlases;
+            names.push_back(run.name);
+    return names;
 }
 
 /// Atlases whose samples are not there, or no longer those that are asked for.
 std::vector<std::string> new_atlases(const Study& study, const ResultFile& file) {
     const std::set<std::string> outdated = outdated_runs(study, file);
     std::vector<std::string> names;
-    for (const StudyRun* atlas : atlases_of(study))
-        if (!file.find_run(atlas->name) || outdated.contains(atlas->name))
-            names.push_back(atlas->name);
+    for (const std::string& atlas : atlases_of(study))
+        if (!file.find_run(atlas) || outdated.contains(atlas))
+            names.push_back(atlas);
     return names;
 }
 
@@ -40,10 +41,8 @@ void add_earlier_runs(Study& study, const ResultFile& file) {
     std::erase_if(study.runs, [&](const StudyRun& run) { return is_made_by_any(run.name, fresh); });
     if (file.runs().empty())
         return;
-    std::vector<std::string> known;
-    for (const StudyRun* atlas : atlases_of(study))
-        if (std::ranges::find(fresh, atlas->name) == fresh.end())
-            known.push_back(atlas->name);
+    std::vector<std::string> known = atlases_of(study);
+    std::erase_if(known, [&](const std::string& atlas) { return std::ranges::find(fresh, atlas) != fresh.end(); });
     const Study stored = stored_study(file);
     for (const StudyRun& run : stored.runs)
         if (is_made_by_any(run.name, known) && !study.find_run(run.name)) {
@@ -52,16 +51,6 @@ void add_earlier_runs(Study& study, const ResultFile& file) {
             if (earlier.start)
                 earlier.start->place = {};
         }
-}
-
-/// Whether all runs of an atlas have been computed, as far as they can be.
-bool is_computed(const Study& study, const std::string& atlas, const ResultFile& file) {
-    return std::ranges::all_of(study.runs, [&](const StudyRun& run) {
-        if (run.name != atlas && !is_made_by(run.name, atlas))
-            return true;
-        const auto record = file.find_run(run.name);
-        return record && record->status != RunStatus::unfinished;
-    });
 }
 
 /// Replaces the reports of runs, or adds them.
@@ -79,7 +68,7 @@ bool is_interrupted(const std::vector<RunReport>& reports) {
     return std::ranges::any_of(reports, [](const RunReport& one) { return one.outcome == RunOutcome::interrupted; });
 }
 
-/// Explores one atlas until nothing is left to do, or time is up. @return false when interrupted
+/// Explores one atlas until nothing is left to do, or time is up, or it is interrupted.
 class Explorer {
 public:
     Explorer(Study& study, ResultFile& file, const RunnerOptions& options, const StudyRunner& runner,
@@ -137,13 +126,12 @@ void forget_outdated_atlases(const Study& study, ResultFile& file) {
 
 std::vector<std::string> add_atlas_runs(Study& study, const ResultFile& file) {
     add_earlier_runs(study, file);
-    std::vector<std::string> names, next;
-    for (const StudyRun* atlas : atlases_of(study))
-        names.push_back(atlas->name);
-    for (const std::string& name : names) {
-        if (!is_computed(study, name, file))
+    std::vector<std::string> next;
+    for (const std::string& name : atlases_of(study)) {
+        const StudyRun& atlas = *study.find_run(name);
+        if (!is_computed(study, atlas, file))
             continue;
-        for (const StudyRun& run : Exploration(study, *study.find_run(name), file).next()) {
+        for (const StudyRun& run : Exploration(study, atlas, file).next()) {
             next.push_back(run.name);
             study.runs.push_back(run);
         }
@@ -160,11 +148,8 @@ std::vector<RunReport> run_with_atlases(Study& study, ResultFile& file, const Ru
     std::vector<RunReport> reports = runner(study, file, options);
     if (is_interrupted(reports))
         return reports;
-    std::vector<std::string> names;
-    for (const StudyRun* atlas : atlases_of(study))
-        names.push_back(atlas->name);
     Explorer explorer(study, file, options, runner, reports);
-    for (const std::string& name : names)
+    for (const std::string& name : atlases_of(study))
         explorer.explore(name);
     std::vector<RunReport> ordered;
     for (const StudyRun& run : study.runs)
