@@ -41,9 +41,25 @@ std::optional<OrbitMinimum> touch_of(const SpecialPoint& point) {
     return lowest;
 }
 
+/// The same for equilibria. A double eigenvalue 0 is known only to the square root of its uncertainty.
+bool equilibrium_satisfies(const SpecialPoint& point, PointType type) {
+    constexpr double share = 1e-5; // of the largest eigenvalue
+    double largest = 0;
+    for (const auto one : point.solution.eigenvalues)
+        largest = std::max(largest, std::abs(one));
+    const auto any = [&](const auto& has) { return std::ranges::any_of(point.solution.eigenvalues, has); };
+    if (type == PointType::fold)
+        return any([&](auto one) { return std::abs(one) <= share * largest; });
+    return type == PointType::hopf &&
+           (point.type == PointType::takens_bogdanov ||
+            any([&](auto one) { return one.imag() > share * largest && std::abs(one.real()) <= share * largest; }));
+}
+
 bool satisfies(const SpecialPoint& point, PointType type) {
     if (point.type == type)
         return true;
+    if (is_rest(point.solution.orbit.signature))
+        return equilibrium_satisfies(point, type);
     const bool half = point.solution.orbit.symmetry.has_value();
     switch (type) {
     case PointType::fold:
@@ -71,14 +87,15 @@ std::string quoted(const std::vector<PointType>& types) {
 } // namespace
 
 std::string multipliers_in_words(const SpecialPoint& point) {
-    const auto& all = multipliers_followed(point.solution);
+    const bool rests = is_rest(point.solution.orbit.signature);
+    const auto& all = rests ? point.solution.eigenvalues : multipliers_followed(point.solution);
     if (all.empty())
         return "its multipliers are not defined, as where a contact has no speed";
     std::vector<std::string> texts;
     for (const std::complex<double> one : all)
         texts.push_back(one.imag() == 0 ? fmt::format("{:.6g}", one.real())
                                         : fmt::format("{:.6g}{:+.6g}i", one.real(), one.imag()));
-    return fmt::format("its multipliers are {}", fmt::join(texts, ", "));
+    return fmt::format("its {} are {}", rests ? "eigenvalues" : "multipliers", fmt::join(texts, ", "));
 }
 
 std::vector<PointType> curves_at(const SpecialPoint& point) {

@@ -98,6 +98,8 @@ public:
         validate_orbit(system_.model(), orbit);
         if (orbit.signature != signature_)
             throw InputError("the orbit does not have the signature of the monitors", "make them anew for it");
+        if (is_rest(signature_))
+            return values_at_rest(orbit);
         totals_.assign(monitors_.size(), {});
         values_.assign(monitors_.size(), std::numeric_limits<double>::quiet_NaN());
         flow_.set_parameters(orbit.parameters);
@@ -115,6 +117,20 @@ public:
     }
 
 private:
+    /// Values at an equilibrium, which has no extent.
+    std::vector<double> values_at_rest(const Orbit& orbit) const {
+        const std::vector<double> inputs = concatenated(orbit.starts[0], orbit.parameters);
+        std::vector<double> values;
+        for (const Monitor& monitor : monitors_)
+            values.push_back(monitor.kind == Monitor::Kind::duration ? 0
+                             : monitor.kind == Monitor::Kind::multiplier
+                                 ? std::numeric_limits<double>::quiet_NaN()
+                                 : system_.function_of({&monitor.expression, 1})(inputs)[0]);
+        for (std::size_t m = 0; m < values.size(); ++m)
+            if (monitors_[m].kind == Monitor::Kind::norm)
+                values[m] = std::abs(values[m]);
+        return values;
+    }
     /// Values accumulated step by step.
     struct Total {
         double least = std::numeric_limits<double>::infinity();

@@ -2,6 +2,7 @@
 
 #include "branch/bounds.hpp"
 #include "branch/contact_points.hpp"
+#include "branch/cycle_at_hopf.hpp"
 #include "branch/multiplier_points.hpp"
 #include "branch/parameter_points.hpp"
 #include "graze/base/input_error.hpp"
@@ -124,7 +125,15 @@ constexpr std::array table{
     PointRule{.kind = kind(PointType::fold_torus, "FT", "fold-torus", may_stop, 15), .confirm = confirm_with_torus},
     PointRule{.kind = kind(PointType::flip_torus, "PT", "flip-torus", may_stop, 15), .confirm = confirm_with_torus},
     PointRule{.kind = kind(PointType::chatter, "CH", "onset of chatter", changes | limits, 15)},
-    PointRule{.kind = kind(PointType::hopf, "HB", "Hopf point", changes, 5)},
+    PointRule{
+        .kind = kind(PointType::hopf, "HB", "Hopf point", changes | has_bifurcating_branch | may_stop | may_be_kept, 5),
+        .leave = leave_hopf},
+    PointRule{.kind = kind(PointType::boundary_equilibrium, "BE", "boundary equilibrium",
+                           changes | limits | may_stop | may_be_kept, 10)},
+    PointRule{.kind = kind(PointType::takens_bogdanov, "BT", "Bogdanov-Takens point", may_stop, 6)},
+    PointRule{.kind = kind(PointType::zero_hopf, "ZH", "zero-Hopf point", may_stop, 15)},
+    PointRule{.kind = kind(PointType::double_hopf, "HH", "double Hopf point", may_stop, 15)},
+    PointRule{.kind = kind(PointType::generalised_hopf, "GH", "generalised Hopf point", may_stop, 11)},
     PointRule{.kind = kind(PointType::extremum, "EX", "extremum", may_stop, 1),
               .test = test_extremum,
               .confirm = confirm_extremum},

@@ -1,5 +1,6 @@
 #include "graze/branch/switching.hpp"
 
+#include "branch/equilibrium_switch.hpp"
 #include "branch/point_kind.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
@@ -28,6 +29,8 @@ std::vector<BranchStart> branches_at(const System& system, const SpecialPoint& p
         require_finite(point.time, "the time of the point");
     }
     validate_orbit(model, point.solution.orbit);
+    if (point.type == PointType::branch_point && is_rest(point.solution.orbit.signature))
+        return equilibria_at_branch_point(system, point, settings);
     return rule.leave(system, point, settings);
 }
 

@@ -4,6 +4,7 @@
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 #include "graze/symbolic/transform.hpp"
+#include "model/unused_symbol.hpp"
 
 #include <fmt/format.h>
 
@@ -15,14 +16,6 @@
 namespace graze {
 
 namespace {
-
-/// Returns a symbol in the model's graph whose name the model does not use.
-Expression new_symbol(Model& model, const std::string& base) {
-    std::string name = base;
-    while (model.find_state(name) || model.find_parameter(name) || find_named(model.definitions, name))
-        name += '_';
-    return model.symbol(name);
-}
 
 /// Returns the modes of a model without events, extended by derivatives of the states as further states: x' = f, w' =
 /// the derivative of f along w. States: first those of the model, then, column by column, the derivatives of `rows`.
@@ -91,7 +84,7 @@ VariationalCompiler::VariationalCompiler(const System& system, std::span<const P
     for (const ParameterId parameter : free)
         variables_.push_back(parameters[parameter.place()]);
     for (const Expression& variable : variables_) {
-        vector_.push_back(new_symbol(model_, "along_" + std::to_string(vector_.size())));
+        vector_.push_back(unused_symbol(model_, "along_" + std::to_string(vector_.size())));
         along_.emplace_back(variable, vector_.back());
     }
 }

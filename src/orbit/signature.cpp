@@ -17,6 +17,19 @@ const std::string& cut_name() {
     return name;
 }
 
+const std::string& rest_name() {
+    static const std::string name = "equilibrium";
+    return name;
+}
+
+Signature signature_of_rest(std::size_t mode) {
+    return {{mode, SegmentEnd::rest, 0}};
+}
+
+bool is_rest(const Signature& signature) {
+    return signature.size() == 1 && signature.front().end == SegmentEnd::rest;
+}
+
 namespace {
 
 constexpr std::size_t most_segments = 100000;
@@ -128,14 +141,17 @@ std::vector<Segment> candidates(const Model& model, const std::string& name) {
         for (std::size_t m = 0; m < model.modes.size(); ++m)
             if (!mode || m == *mode)
                 result.push_back({m, SegmentEnd::section, *section});
-    if (rest == cut_name())
-        for (std::size_t m = 0; m < model.modes.size(); ++m)
+    for (const auto& [special, end] :
+         {std::pair(cut_name(), SegmentEnd::cut), std::pair(rest_name(), SegmentEnd::rest)})
+        for (std::size_t m = 0; rest == special && m < model.modes.size(); ++m)
             if (!mode || m == *mode)
-                result.push_back({m, SegmentEnd::cut, 0});
+                result.push_back({m, end, 0});
     return result;
 }
 
 bool can_follow(const Model& model, const Segment& before, const Segment& after) {
+    if (before.end == SegmentEnd::rest || after.end == SegmentEnd::rest)
+        return before == after;
     return before.end == SegmentEnd::event ? can_lead_to(model.transitions[before.index], after.mode)
                                            : before.mode == after.mode;
 }
@@ -210,6 +226,8 @@ bool can_lead_to(const Transition& transition, std::size_t mode) {
 const std::string& end_name(const Model& model, const Segment& segment) {
     if (segment.end == SegmentEnd::cut)
         return cut_name();
+    if (segment.end == SegmentEnd::rest)
+        return rest_name();
     if (segment.end == SegmentEnd::event)
         require_index(segment.index, model.transitions.size(), "transition");
     else
@@ -247,6 +265,8 @@ Signature parse_signature(const Model& model, std::string_view text, const Place
                         "look at the transitions of the model", names[k + 1].column);
     }
     const auto signature = choose(model, places);
+    if (signature && signature->size() > 1 && signature->front().end == SegmentEnd::rest)
+        reader.fail("an equilibrium is the only segment of its signature", "write it once", names.back().column);
     if (!signature)
         reader.fail("no cycle of the model's graph has these transitions", "look at the transitions of the model",
                     names.front().column);
@@ -284,8 +304,12 @@ void validate_signature(const Model& model, const Signature& signature, const Pl
     if (symmetry)
         require_index(*symmetry, model.symmetries.size(), "symmetry");
     for (const Segment& segment : signature) {
-        if (segment.end != SegmentEnd::event && segment.end != SegmentEnd::section && segment.end != SegmentEnd::cut)
+        if (segment.end != SegmentEnd::event && segment.end != SegmentEnd::section && segment.end != SegmentEnd::cut &&
+            segment.end != SegmentEnd::rest)
             throw InputError(place, "a segment has no end", "let an event or a section end it");
+        if (segment.end == SegmentEnd::rest && (signature.size() > 1 || symmetry))
+            throw InputError(place, "an equilibrium is the only segment of its signature, without a symmetry",
+                             "give it alone");
         const std::size_t ends = segment.end == SegmentEnd::event     ? model.transitions.size()
                                  : segment.end == SegmentEnd::section ? model.sections.size()
                                                                       : 1;

@@ -4,6 +4,7 @@
 #include "graze/base/input_error.hpp"
 #include "orbit/newton.hpp"
 #include "orbit/shooting.hpp"
+#include "orbit/solve_equilibrium.hpp"
 
 #include <fmt/format.h>
 
@@ -104,14 +105,22 @@ std::string_view name_of(OrbitOutcome outcome) {
 }
 
 bool is_stable(const OrbitSolution& solution) {
+    if (is_rest(solution.orbit.signature))
+        return solution.outcome == OrbitOutcome::converged &&
+               std::ranges::all_of(solution.eigenvalues, [margin = neutral_growth(solution.eigenvalues)](auto one) {
+                   return one.real() < -margin;
+               });
     const auto& multipliers = solution.multipliers;
     return !multipliers.empty() &&
            std::ranges::all_of(multipliers, [](auto one) { return std::abs(one) < 1 - on_circle; });
 }
 
 std::size_t unstable_directions(const OrbitSolution& solution) {
-    return static_cast<std::size_t>(
-        std::ranges::count_if(solution.multipliers, [](auto one) { return std::abs(one) > 1 + on_circle; }));
+    const auto growing = std::ranges::count_if(solution.eigenvalues, [margin = neutral_growth(solution.eigenvalues)](
+                                                                         auto one) { return one.real() > margin; });
+    const auto outside =
+        std::ranges::count_if(solution.multipliers, [](auto one) { return std::abs(one) > 1 + on_circle; });
+    return static_cast<std::size_t>(growing + outside);
 }
 
 OrbitOutcome solve_equations(OrbitEquations& equations, Eigen::VectorXd& unknowns, const OrbitOptions& options,
@@ -227,6 +236,8 @@ OrbitSolution solve_orbit(const System& system, const Orbit& candidate, const Or
     const Model& model = system.model();
     options.validate();
     validate_orbit(model, candidate);
+    if (is_rest(candidate.signature))
+        return solve_equilibrium(system, candidate, options);
     const Simulation simulation(system, {}, {}, integration(options.tolerance));
     Shooting shooting(simulation, candidate, {});
     Eigen::VectorXd unknowns = shooting.unknowns_of(candidate);

@@ -83,8 +83,10 @@ std::string_view name_of(BranchOutcome outcome);
 /// True when a branch with this outcome ends in a special point, if one was found with its last point.
 bool ends_at_point(BranchOutcome outcome);
 
-/// Follows a branch of periodic orbits of one signature in one parameter and locates its special points: an iterator
-/// that can be stopped and resumed after any step.
+class BranchFollower;
+
+/// Follows a branch of periodic orbits of one signature, or of equilibria, in one parameter and locates its special
+/// points: an iterator that can be stopped and resumed after any step.
 class OrbitBranch {
 public:
     /// @throws InputError when candidate or settings do not fit the model
@@ -109,8 +111,7 @@ public:
     const std::string& detail() const;
 
 private:
-    class Follower;
-    std::unique_ptr<Follower> follower_;
+    std::unique_ptr<BranchFollower> follower_;
     bool begun_ = false;
 };
 

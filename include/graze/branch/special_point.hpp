@@ -12,7 +12,7 @@
 
 namespace graze {
 
-/// Types of points on a branch of periodic orbits. Each has an entry at the same index in the table of kinds.
+/// Types of points on a branch of periodic orbits or equilibria. Each has an entry at the same index in the table of kinds.
 enum class PointType {
     fold,              ///< SN: the branch has a fold; a multiplier is 1
     flip,              ///< PD: a multiplier is -1
@@ -40,7 +40,12 @@ enum class PointType {
     fold_torus,        ///< FT: on a curve of folds or torus points: a multiplier is 1, and two lie on the unit circle
     flip_torus,        ///< PT: on a curve of flips or torus points: a multiplier is -1, and two lie on the unit circle
     chatter,           ///< CH: onset of chatter, the limit of a ladder of grazings
-    hopf,              ///< HB: the orbit shrinks to an equilibrium, as at a Hopf bifurcation
+    hopf,              ///< HB: the orbit shrinks to an equilibrium, or two eigenvalues of one are imaginary: Hopf
+    boundary_equilibrium, ///< BE: an equilibrium meets the surface of an event that ends its mode
+    takens_bogdanov,      ///< BT: on a curve of folds or Hopf points of equilibria: two eigenvalues are 0
+    zero_hopf,            ///< ZH: on such a curve: one eigenvalue is 0, two are imaginary
+    double_hopf,          ///< HH: on a curve of Hopf points: four eigenvalues are imaginary
+    generalised_hopf,     ///< GH: on a curve of Hopf points: criticality changes (Bautin)
     extremum,          ///< EX: extremum of the period, where that is free; or of a parameter, on a curve
     bound,             ///< BD: a given bound is reached
     crossing,          ///< UZ: a monitor takes a requested value

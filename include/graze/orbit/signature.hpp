@@ -15,13 +15,14 @@ enum class SegmentEnd {
     event,   ///< a transition: its event happens and its jump is applied
     section, ///< the motion passes a section of the model; state and mode do not change
     cut,     ///< the motion passes a plane laid across it by the program; state and mode do not change
+    rest,    ///< nothing ends it: the state is an equilibrium of the mode. The only segment of its signature
 };
 
-/// One smooth piece of an orbit: the motion in a mode, up to an event or section.
+/// One smooth piece of an orbit: the motion in a mode, up to an event or section; or rest in an equilibrium.
 struct Segment {
     std::size_t mode = 0;
     SegmentEnd end = SegmentEnd::event;
-    std::size_t index = 0; ///< in Model::transitions or Model::sections; 0 for cuts
+    std::size_t index = 0; ///< in Model::transitions or Model::sections; 0 for cuts and equilibria
     bool operator==(const Segment&) const = default;
 };
 
@@ -32,12 +33,18 @@ using Signature = std::vector<Segment>;
 bool can_lead_to(const Transition& transition, std::size_t mode);
 /// The name of a cut in signatures: "~".
 const std::string& cut_name();
+/// The signature of an equilibrium: "equilibrium".
+const std::string& rest_name();
+/// Returns the signature of an equilibrium in a mode.
+Signature signature_of_rest(std::size_t mode);
+/// True for the signature of an equilibrium.
+bool is_rest(const Signature& signature);
 /// Returns the name of a segment's end in signatures: the label of the transition, the name of the section, or "~" for
-/// a cut. The name is a part of the model, and exists as long.
+/// a cut, "equilibrium" for rest. The name is a part of the model, and exists as long.
 const std::string& end_name(const Model& model, const Segment& segment);
 
 /// Reads signatures such as "J1 J8", "{J1,J8}^2", "impact^4" or "(impact release)^2 impact": labels of transitions and
-/// names of sections, repeated by ^; braces and parentheses group, commas separate. "~" is a cut. Modes are deduced
+/// names of sections, repeated by ^; braces and parentheses group, commas separate. "~" is a cut, "equilibrium" a state at rest. Modes are deduced
 /// from the model's graph; where they are ambiguous, write "mode:label".
 /// @throws InputError for names that the model does not have and sequences that its graph does not allow
 Signature parse_signature(const Model& model, std::string_view text, const Place& place = {});

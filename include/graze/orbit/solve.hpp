@@ -50,19 +50,24 @@ struct OrbitSolution {
     /// Floquet multipliers of the section map of the whole orbit, largest first; empty where an event is reached with
     /// zero speed.
     std::vector<std::complex<double>> multipliers;
+    /// Of an equilibrium: the eigenvalues of the linearised field, largest real part first.
+    std::vector<std::complex<double>> eigenvalues;
     std::vector<std::complex<double>> half_multipliers; ///< multipliers of the half map of a symmetric orbit given by
                                                         ///< its half; `multipliers` are their squares
     Certificate certificate;
 };
 
-/// True when all multipliers have magnitudes below 1 - 1e-8, the margin of round-off at a bifurcation. False where
-/// multipliers are not known.
+/// True when all multipliers have magnitudes below 1 - 1e-8, the margin of round-off at a bifurcation; of an
+/// equilibrium: when the real parts of all eigenvalues are below -1e-10 times the largest magnitude. False where they
+/// are not known.
 bool is_stable(const OrbitSolution& solution);
-/// Returns the number of multipliers outside the unit circle, by the same margin.
+/// Returns the number of multipliers outside the unit circle, or of eigenvalues in the right half plane, by the same
+/// margin.
 std::size_t unstable_directions(const OrbitSolution& solution);
 
 /// Finds a periodic orbit near a candidate by damped Newton's method on multiple shooting with exact derivatives. Where
-/// a family of orbits exists at the same parameters, as in conservative models, the nearest member is found.
+/// a family of orbits exists at the same parameters, as in conservative models, the nearest member is found. A candidate
+/// with the signature of an equilibrium leads to an equilibrium of its mode: an orbit of duration 0.
 /// @throws InputError when the candidate does not fit the model or the options are out of range
 OrbitSolution solve_orbit(const System& system, const Orbit& candidate, const OrbitOptions& options = {});
 

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "branch/point_kind.hpp"
+
+namespace graze {
+
+/// Returns the branch of cycles that begins at a Hopf point of an equilibrium: from a small cycle on it, away from the
+/// point. From the end of a branch of cycles at a Hopf point, the branch of equilibria, in both directions.
+PointRule::Leave leave_hopf;
+
+} // namespace graze

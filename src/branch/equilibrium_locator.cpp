@@ -1,0 +1,232 @@
+#include "branch/equilibrium_locator.hpp"
+
+#include "base/special_numbers.hpp"
+#include "branch/boundary_equilibrium.hpp"
+#include "branch/bounds.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+constexpr double located_within = 1e-14; ///< accuracy of located points, as a fraction of the step
+
+} // namespace
+
+std::vector<SpecialPoint> EquilibriumLocator::locate_all(const DescribedEquilibrium& before,
+                                                         const DescribedEquilibrium& here) {
+    constexpr double beside = 1e-6; // share of the step: a fold at a branch point is the other branch's
+    std::vector<SpecialPoint> found;
+    const std::size_t count = std::min(before.tests.size(), here.tests.size());
+    for (std::size_t i = 0; i < count; ++i)
+        for (const Bracket& bracket : brackets_of(i, before.tests[i], here.tests[i]))
+            if (auto special = locate(i, bracket, before, here))
+                found.push_back(std::move(*special));
+    older_.clear();
+    for (const BranchTest& test : before.tests)
+        older_.push_back(test.value);
+    older_arclength_ = before.at.arclength;
+    const double length = here.at.arclength - before.at.arclength;
+    std::erase_if(found, [&](const SpecialPoint& one) {
+        return one.type == PointType::fold && std::ranges::any_of(found, [&](const SpecialPoint& other) {
+                   return other.type == PointType::branch_point &&
+                          std::abs(other.arclength - one.arclength) < beside * length;
+               });
+    });
+    std::ranges::stable_sort(found, {}, &SpecialPoint::arclength);
+    // What lies beyond a bound does not belong to the branch.
+    const auto bound = std::ranges::find(found, PointType::bound, &SpecialPoint::type);
+    if (bound != found.end())
+        found.erase(bound + 1, found.end());
+    path_->problem()->evaluate(here.at.u);
+    return found;
+}
+
+std::vector<EquilibriumLocator::Bracket> EquilibriumLocator::brackets_of(std::size_t test, const BranchTest& before,
+                                                                         const BranchTest& here) {
+    const TestValue low{0, before.value}, high{1, here.value};
+    const double noise = std::max(before.noise, here.noise);
+    if (noise > 0 && std::abs(low.value) <= noise && std::abs(high.value) <= noise)
+        return {};
+    if (here.type == PointType::bound && !(low.value > 0))
+        return {};
+    if (low.value * high.value < 0 || (high.value == 0 && low.value != 0))
+        return {{low, high}};
+    if (test >= older_.size() || !(low.value * high.value > 0))
+        return {};
+    const double length = continuation_->point().arclength - continuation_->previous().arclength;
+    const TestValue older{(older_arclength_ - continuation_->previous().arclength) / length, older_[test]};
+    const auto dip = possible_dip(older, low, high);
+    if (!dip)
+        return {};
+    const auto zeros = dip_between(low, high, *dip, [&](double fraction) {
+        const auto there = describe_between(fraction);
+        return there ? there->tests[test].value : not_a_number;
+    });
+    if (!zeros || std::abs(zeros->within.value) <= noise)
+        return {};
+    return {{zeros->before, zeros->within}, {zeros->within, zeros->behind}};
+}
+
+std::optional<DescribedEquilibrium> EquilibriumLocator::describe_between(double fraction) {
+    ContinuationPoint at;
+    return continuation_->between(fraction, at) ? path_->describe(at) : std::nullopt;
+}
+
+/// The zero of a test by the secant method kept within a bracket (Illinois variant of regula falsi).
+std::optional<DescribedEquilibrium> EquilibriumLocator::zero_of(std::size_t test, TestValue low, TestValue high) {
+    constexpr int most = 80;
+    std::optional<DescribedEquilibrium> there;
+    int side = 0;
+    for (int i = 0; i < most && high.fraction - low.fraction > located_within; ++i) {
+        double fraction = low.fraction - low.value * (high.fraction - low.fraction) / (high.value - low.value);
+        if (!(fraction > low.fraction && fraction < high.fraction) || i % 8 == 7)
+            fraction = 0.5 * (low.fraction + high.fraction);
+        auto next = describe_between(fraction);
+        if (!next)
+            return std::nullopt;
+        there = std::move(next);
+        const double value = there->tests[test].value;
+        if (value == 0 || !std::isfinite(value))
+            break;
+        if ((value < 0) == (low.value < 0)) {
+            low = {fraction, value};
+            high.value *= side == -1 ? 0.5 : 1;
+            side = -1;
+        } else {
+            high = {fraction, value};
+            low.value *= side == 1 ? 0.5 : 1;
+            side = 1;
+        }
+    }
+    return there;
+}
+
+std::optional<SpecialPoint> EquilibriumLocator::locate(std::size_t test, const Bracket& bracket,
+                                                       const DescribedEquilibrium& before,
+                                                       const DescribedEquilibrium& here) {
+    const BranchTest& known = here.tests[test];
+    std::optional<DescribedEquilibrium> there;
+    if (!known.singular)
+        there = zero_of(test, bracket.first, bracket.second);
+    if (!there) { // at or near a branch point Newton's method may fail: interpolate between safe points
+        const PointTest value = [&](const ContinuationPoint& sample) {
+            if (known.singular)
+                return sample.determinant;
+            const auto described = path_->describe(sample);
+            return described ? described->tests[test].value : not_a_number;
+        };
+        if (const auto at = locate_crossing(*continuation_, value, bracket.first, bracket.second))
+            there = path_->describe(*at);
+    }
+    if (!there)
+        return std::nullopt;
+    SpecialPoint special;
+    special.type = known.type;
+    special.solution = there->point.solution;
+    special.parameter = there->point.parameter;
+    special.bracket = std::minmax(before.point.parameter, here.point.parameter);
+    special.arclength = there->point.arclength;
+    special.tangent = there->point.tangent;
+    special.monitors = there->point.monitors;
+    special.event = known.event;
+    const double size = std::max(std::abs(bracket.first.value), std::abs(bracket.second.value));
+    return confirm(special, there->tests[test], *there, size) ? std::optional(special) : std::nullopt;
+}
+
+bool EquilibriumLocator::confirm(SpecialPoint& special, const BranchTest& test, const DescribedEquilibrium& there,
+                                 double size) {
+    constexpr double solved = 1e-8, small = 1e-3, neutral = 1e-7;
+    const double field = there.evaluation.field.norm();
+    const BranchSettings& settings = path_->settings();
+    if (test.singular) // two branches that do not cross: the interpolated point is no solution
+        return there.point.solution.residual < solved;
+    special.located = std::abs(test.value) <= small * size;
+    if (!special.located)
+        return false;
+    switch (test.type) {
+    case PointType::hopf:
+    case PointType::double_hopf:
+    case PointType::zero_hopf:
+        // The pair nearest to the axis may be another one on either side.
+        if ((test.type != PointType::zero_hopf || path_->keeps(PointType::fold)) &&
+            !(std::abs(test.value) <= neutral * field))
+            return false;
+        if (test.type == PointType::hopf)
+            special.detail = hopf_in_words(there);
+        return true;
+    case PointType::boundary_equilibrium: {
+        const auto others = meeting_equilibria(path_->system(), special.solution.orbit, test.event, path_->settings());
+        special.detail =
+            fmt::format("at '{}': {}", path_->model().events[test.event].name,
+                        boundary_in_words(path_->model(), admissible_direction(there.evaluation, test.event), others));
+        Certificate& certificate = special.solution.certificate;
+        certificate.admissible = true; // on the surface round-off would decide
+        certificate.reason.clear();
+        return true;
+    }
+    case PointType::extremum: {
+        const std::size_t place = path_->problem()->equations().free()[*test.parameter].place();
+        special.detail = fmt::format("{} = {:.10g}", path_->model().independent_parameters()[place],
+                                     special.solution.orbit.parameters[place]);
+        return true;
+    }
+    case PointType::crossing:
+        special.detail = fmt::format("{} = {:.10g}", settings.monitors[*test.monitor].name,
+                                     settings.monitors[*test.monitor].crossings[test.crossing]);
+        return true;
+    case PointType::bound:
+        return confirm_bound(special, test);
+    default:
+        return true;
+    }
+}
+
+bool EquilibriumLocator::confirm_bound(SpecialPoint& special, const BranchTest& test) {
+    const BranchSettings& settings = path_->settings();
+    if (test.monitor) {
+        special.detail =
+            fmt::format("{} = {:.10g}", settings.monitors[*test.monitor].name, special.monitors[*test.monitor]);
+        return true;
+    }
+    const FreeBounds bounds = test.free ? settings.free_bounds[*test.free]
+                                        : FreeBounds{settings.parameter, settings.least, settings.greatest};
+    const ParameterId parameter = bounds.parameter;
+    double& value = special.solution.orbit.parameters[parameter.place()];
+    const bool is_lower =
+        !bounds.greatest || (bounds.least && std::abs(value - *bounds.least) < std::abs(value - *bounds.greatest));
+    value = is_lower ? *bounds.least : *bounds.greatest; // round-off would leave it on either side
+    special.parameter = special.solution.orbit.parameters[settings.parameter.place()];
+    special.detail = fmt::format("{} = {:.10g}", path_->model().independent_parameters()[parameter.place()],
+                                 special.solution.orbit.parameters[parameter.place()]);
+    return true;
+}
+
+std::string EquilibriumLocator::hopf_in_words(const DescribedEquilibrium& there) const {
+    const auto form = path_->form_at(there.evaluation, product_of_nearest_pair(there.point.solution.eigenvalues));
+    if (!form)
+        return "";
+    std::size_t others = 0;
+    for (const auto one : without_pair(there.point.solution.eigenvalues, form->frequency * form->frequency))
+        others += one.real() > 0 ? 1 : 0;
+    return in_words(*form, others);
+}
+
+bool EquilibriumLocator::explains(const std::vector<SpecialPoint>& found, const DescribedEquilibrium& before,
+                                  const DescribedEquilibrium& here) {
+    long single = 0, pairs = 0;
+    for (const SpecialPoint& one : found) {
+        if (one.type == PointType::boundary_equilibrium || one.type == PointType::bound)
+            return true; // the rest of the step may not belong to the branch
+        single += one.type == PointType::fold || one.type == PointType::branch_point ? 1 : 0;
+        pairs += one.type == PointType::hopf ? 1 : 0;
+    }
+    const long change = std::abs(static_cast<long>(here.unstable) - static_cast<long>(before.unstable));
+    return (change - single) % 2 == 0 && change <= single + 2 * pairs;
+}
+
+} // namespace graze
