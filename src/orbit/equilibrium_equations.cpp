@@ -95,6 +95,19 @@ std::string EquilibriumEquations::why_none(std::span<const double> parameters) c
     return "";
 }
 
+Function EquilibriumEquations::rates_for_search() const {
+    const std::vector<Expression> states = model_.state_symbols(), parameters = model_.parameter_symbols();
+    const auto unknowns = std::span(variables_).first(active_.size());
+    std::vector<Expression> inputs(unknowns.begin(), unknowns.end()), outputs = rates_;
+    for (std::size_t i = 0; i < states.size(); ++i)
+        if (std::ranges::find(active_, i) == active_.end())
+            inputs.push_back(states[i]);
+    inputs.insert(inputs.end(), parameters.begin(), parameters.end());
+    const std::vector<Expression> derivatives = graze::jacobian(rates_, unknowns);
+    outputs.insert(outputs.end(), derivatives.begin(), derivatives.end());
+    return {inputs, outputs};
+}
+
 Eigen::VectorXd EquilibriumEquations::rates(std::span<const double> state, std::span<const double> parameters) const {
     return vector_of(values_(inputs(state, parameters)));
 }

@@ -52,6 +52,9 @@ public:
 
     /// Returns why the mode has no equilibria at these parameters: a state that moves steadily; empty if it may have.
     std::string why_none(std::span<const double> parameters) const;
+    /// Returns the rates of the active states, then their derivatives with respect to them, row by row, as a function of
+    /// the active states, the other states and the independent parameters.
+    Function rates_for_search() const;
     /// Rates of the active states.
     Eigen::VectorXd rates(std::span<const double> state, std::span<const double> parameters) const;
     /// Bounds of their round-off.

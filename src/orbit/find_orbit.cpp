@@ -5,6 +5,7 @@
 #include "graze/trajectory/trajectory.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/cut.hpp"
+#include "orbit/solve_equilibrium.hpp"
 
 #include <fmt/format.h>
 
@@ -258,6 +259,8 @@ std::optional<OrbitSolution> find_orbit(const System& system, const AttractorOpt
                                       result.outcome.detail),
                           "start elsewhere, allow more cycles or longer periods, or give the orbit's states");
     };
+    if (result.label == Label::equilibrium && !returns)
+        return solve_equilibrium(system, orbit_of_rest(result.mode, result.state, model.parameter_values()), options);
     if (result.label != Label::periodic && !returns)
         throw no_orbit();
     FollowedMotion motion = follow_motion(factory->simulation(), model.parameter_values(), result.state, result.mode,

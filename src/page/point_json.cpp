@@ -70,6 +70,7 @@ nlohmann::json orbit_json(const StoredRun& run, const OrbitRecord& record) {
     one["values"] = valued_json(run, run.record.values, record.point.monitors);
     one["multipliers"] = multipliers_json(solution.multipliers);
     one["half_multipliers"] = multipliers_json(solution.half_multipliers);
+    one["eigenvalues"] = multipliers_json(solution.eigenvalues);
     one["signature"] = to_string(model, orbit.signature);
     one["tables"] = {table_json("segments", segment_table(model, solution)),
                      table_json("minima of events", minimum_table(model, solution)),
@@ -109,7 +110,7 @@ nlohmann::json plain_point_json(const StoredRun& run, const PointRecord& point) 
                        {"error", nullptr},
                        {"signature", point.result.signature}};
     one["coordinates"] = valued_json(run, run.record.coordinates, point.coordinates);
-    for (const char* list : {"parameters", "values", "half_multipliers", "tables", "facts"})
+    for (const char* list : {"parameters", "values", "half_multipliers", "eigenvalues", "tables", "facts"})
         one[list] = nlohmann::json::array();
     one["multipliers"] = multipliers_json(point.result.multipliers);
     return one;

@@ -53,6 +53,7 @@ JsonObject orbit_heading(const ResultFile& file, const StoredOrbit& stored) {
     heading.add("symmetry", solution.orbit.symmetry ? model.symmetries[*solution.orbit.symmetry].name : "");
     heading.add("multipliers", list_of(solution.multipliers));
     heading.add("half_multipliers", list_of(solution.half_multipliers));
+    heading.add("eigenvalues", list_of(solution.eigenvalues));
     heading.add("stable", record.stable ? 1.0 : 0.0);
     heading.add("admissible", solution.certificate.admissible ? 1.0 : 0.0);
     heading.add("reason", solution.certificate.reason);

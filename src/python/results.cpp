@@ -71,6 +71,7 @@ py::dict facts_of_record(const RunRecord& run, const OrbitRecord& record) {
     object["symmetric"] = solution.orbit.symmetry.has_value();
     object["multipliers"] = array_of_multipliers(solution.multipliers);
     object["half_multipliers"] = array_of_multipliers(solution.half_multipliers);
+    object["eigenvalues"] = array_of_multipliers(solution.eigenvalues);
     object["outcome"] = std::string(name_of(solution.outcome));
     object["residual"] = solution.residual;
     object["error"] = solution.error;

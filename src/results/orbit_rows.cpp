@@ -48,6 +48,10 @@ Segment segment_named(const Model& model, const std::string& mode, const std::st
         segment.end = SegmentEnd::cut;
         return segment;
     }
+    if (end == rest_name()) {
+        segment.end = SegmentEnd::rest;
+        return segment;
+    }
     segment.end = SegmentEnd::section;
     const auto section = model.find_section(end);
     if (!section)
@@ -73,6 +77,7 @@ public:
           segments_(database.prepare(tables_.select_sample() + " WHERE point = ? ORDER BY segment")),
           multipliers_(database, "multipliers", multiplier_columns(), run),
           half_multipliers_(database, "half_multipliers", multiplier_columns(), run),
+          eigenvalues_(database, "eigenvalues", multiplier_columns(), run),
           minima_(database, "minima", minimum_columns(), run),
           end_values_(database, "end_values", end_value_columns(), run) {
         require_columns(segments_, tables_.sample_columns.size(), path_);
@@ -91,6 +96,7 @@ public:
         const Model& model = *context_.model;
         solution.multipliers = multipliers_.of_point(*run_, record.number);
         solution.half_multipliers = half_multipliers_.of_point(*run_, record.number);
+        solution.eigenvalues = eigenvalues_.of_point(*run_, record.number);
         solution.certificate.minima = of_known_events(minima_.of_point(context_, record.number), model, solution.orbit);
         solution.certificate.end_values =
             of_known_events(end_values_.of_point(context_, record.number), model, solution.orbit);
@@ -120,7 +126,7 @@ private:
     OrbitContext context_;
     RunTables tables_;
     Statement segments_;
-    DetailReader<RunRecord, std::complex<double>> multipliers_, half_multipliers_;
+    DetailReader<RunRecord, std::complex<double>> multipliers_, half_multipliers_, eigenvalues_;
     DetailReader<OrbitContext, OrbitMinimum> minima_;
     DetailReader<OrbitContext, EndValue> end_values_;
 };
@@ -151,6 +157,7 @@ void ResultFile::add_orbit(const std::string& name, const OrbitRecord& record) {
         write(writer.end_value, end_value_columns(), context, solution.certificate.end_values);
         write(writer.multiplier, multiplier_columns(), run, solution.multipliers);
         write(writer.half_multiplier, multiplier_columns(), run, solution.half_multipliers);
+        write(writer.eigenvalue, multiplier_columns(), run, solution.eigenvalues);
         state_->commit_when_due();
     } catch (...) {
         state_->sqlite_rollback();

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <functional>
 #include <limits>
 #include <map>
@@ -160,15 +161,18 @@ private:
                  [this, one](const auto& p) { return value_of_parameter(list_, p, one); });
     }
     void show_orbits() {
-        std::size_t segments = 0, multipliers = 0; // greatest numbers at any point
+        std::size_t segments = 0, multipliers = 0, eigenvalues = 0; // greatest numbers at any point
         for (const ListedPoint& p : list_.points) {
             segments = std::max(segments, p.record.point.solution.orbit.segments());
             multipliers = std::max(multipliers, p.record.point.solution.multipliers.size());
+            eigenvalues = std::max(eigenvalues, p.record.point.solution.eigenvalues.size());
         }
         const std::string time = list_.runs.empty() ? "" : list_.runs.front().model.time_unit;
         const auto orbit = [](const auto& p) -> const Orbit& { return p.record.point.solution.orbit; };
-        show(true, "period", time, [orbit](const auto& p) { return orbit(p).period(); });
-        show(for_people_, "durations", time, [orbit](const auto& p) { return numbers_text(orbit(p).durations, 6); });
+        const auto rests = [orbit](const auto& p) { return is_rest(orbit(p).signature); };
+        const bool moves = !for_people_ || list_.points.empty() || any([rests](const auto& p) { return !rests(p); });
+        show(moves, "period", time, [orbit](const auto& p) { return orbit(p).period(); });
+        show(for_people_ && moves, "durations", time, [orbit](const auto& p) { return numbers_text(orbit(p).durations, 6); });
         for (std::size_t s = 0; s < segments; ++s)
             show(!for_people_, fmt::format("duration_{}", s + 1), time,
                  [orbit, s](const auto& p) { return s < orbit(p).segments() ? orbit(p).durations[s] : not_a_number; });
@@ -179,12 +183,21 @@ private:
                  return orbit(p).symmetry ? model_of(p).symmetries[*orbit(p).symmetry].name : "";
              });
         show(true, "stable", "", [this](const auto& p) { return truth(p.record.stable); });
-        show(true, "multiplier", "", [this](const auto& p) { return multiplier_of(p.record.point.solution); });
-        for (std::size_t m = 0; m < multipliers; ++m)
+        show(moves, "multiplier", "", [this](const auto& p) { return multiplier_of(p.record.point.solution); });
+        show_complex(!for_people_, "multiplier", multipliers, &OrbitSolution::multipliers);
+        show(for_people_ && eigenvalues > 0, "eigenvalues", "", [this](const auto& p) {
+            return multipliers_text(p.record.point.solution.eigenvalues, brief_ ? 4 : digits_);
+        });
+        show_complex(!for_people_, "eigenvalue", eigenvalues, &OrbitSolution::eigenvalues);
+    }
+    /// Columns of real and imaginary parts. @param count of numbers
+    void show_complex(bool wanted, const char* name, std::size_t count,
+                      std::vector<std::complex<double>> OrbitSolution::*numbers) {
+        for (std::size_t m = 0; m < count; ++m)
             for (const bool real : {true, false})
-                show(!for_people_, fmt::format("multiplier_{}_{}", m + 1, real ? "real" : "imaginary"), "",
-                     [m, real](const auto& p) {
-                         const auto& all = p.record.point.solution.multipliers;
+                show(wanted, fmt::format("{}_{}_{}", name, m + 1, real ? "real" : "imaginary"), "",
+                     [m, real, numbers](const auto& p) {
+                         const auto& all = p.record.point.solution.*numbers;
                          return extended(m >= all.size() ? not_a_number : real ? all[m].real() : all[m].imag());
                      });
     }

@@ -99,6 +99,31 @@ bool stays_at_start(const BranchPart& part, const OrbitBranch& branch) {
 
 } // namespace
 
+SpecialPoint point_of_solution(const StudyRun& run, const System& system, OrbitSolution solution) {
+    SpecialPoint point;
+    point.type = PointType::end;
+    point.solution = std::move(solution);
+    point.detail = point.solution.detail;
+    const Orbit& orbit = point.solution.orbit;
+    const bool converged = point.solution.outcome == OrbitOutcome::converged;
+    if (converged && !run.branch().settings.monitors.empty())
+        point.monitors = at_place(run.place, run, [&] {
+            const std::vector<Monitor>& monitors = run.branch().settings.monitors;
+            std::vector<double> values =
+                OrbitMonitors(system, orbit.signature, monitors, run.branch().settings.orbit.tolerance)(orbit);
+            measure_multipliers(monitors, point.solution.multipliers, values);
+            return values;
+        });
+    if (!converged) {
+        point.located = false;
+        point.solution.certificate.admissible = false;
+        point.solution.certificate.reason = "no orbit was found";
+    }
+    point.parameter = orbit.parameters.empty() ? 0 : orbit.parameters[run.branch().settings.parameter.place()];
+    point.bracket = {not_a_number, not_a_number};
+    return point;
+}
+
 PartEnd follow_part(const StudyRun& run, const BranchSettings& of_run, const System& system, const BranchPart& part,
                     PointWriter& writer, const RunnerOptions& options) {
     BranchSettings settings = of_run;

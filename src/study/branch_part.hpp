@@ -40,6 +40,9 @@ auto at_place(const Place& place, const StudyRun& run, const Work& work) {
 /// the orbit from the touch. It is told of grazings, and of all points of curves of touches. @return none otherwise
 std::optional<TouchFindings> findings_at(const StudyRun& run, const SpecialPoint& point);
 
+/// The point that is stored of an orbit that has been solved for by itself.
+SpecialPoint point_of_solution(const StudyRun& run, const System& system, OrbitSolution solution);
+
 /// Writes points to the result file one by one. It holds the last point back until it is known whether the part ends
 /// there.
 class PointWriter {

@@ -6,6 +6,7 @@
 #include "graze/branch/switching.hpp"
 #include "graze/orbit/orbit_file.hpp"
 #include "study/branch_part.hpp"
+#include "study/equilibrium_run.hpp"
 #include "study/ladder_run.hpp"
 #include "study/run_record.hpp"
 #include "study/start_point.hpp"
@@ -22,6 +23,8 @@ namespace {
 /// An orbit with the signature that the run asks for; none when interrupted.
 std::optional<Orbit> orbit_asked_for(const StudyRun& run, const System& system, const RunnerOptions& options) {
     const Signature wanted = parse_signature(run.model, run.branch().signature, run.branch().signature_place);
+    if (is_rest(wanted))
+        return Orbit{wanted, run.model.parameter_values(), {run.model.initial_state()}, {0.0}, std::nullopt};
     SignatureSearchOptions search;
     search.unphysical = !run.branch().settings.stop_when_unphysical;
     search.interrupted = options.interrupted;
@@ -272,27 +275,9 @@ bool compute_orbit(const Study& study, const StudyRun& run, const System& system
     if (parts.empty())
         return false;
     const BranchPart& part = parts.front();
-    SpecialPoint point;
-    point.type = PointType::end;
-    point.solution =
-        at_place(run.place, run, [&] { return solve_orbit(system, part.orbit, run.branch().settings.orbit); });
-    point.detail = point.solution.detail;
-    const Orbit& orbit = point.solution.orbit;
-    if (point.solution.outcome == OrbitOutcome::converged && !run.branch().settings.monitors.empty())
-        point.monitors = at_place(run.place, run, [&] {
-            const std::vector<Monitor>& monitors = run.branch().settings.monitors;
-            std::vector<double> values =
-                OrbitMonitors(system, orbit.signature, monitors, run.branch().settings.orbit.tolerance)(orbit);
-            measure_multipliers(monitors, point.solution.multipliers, values);
-            return values;
-        });
-    if (point.solution.outcome != OrbitOutcome::converged) {
-        point.located = false;
-        point.solution.certificate.admissible = false;
-        point.solution.certificate.reason = "no orbit was found";
-    }
-    point.parameter = orbit.parameters.empty() ? 0 : orbit.parameters[run.branch().settings.parameter.place()];
-    point.bracket = {not_a_number, not_a_number};
+    const SpecialPoint point = point_of_solution(
+        run, system,
+        at_place(run.place, run, [&] { return solve_orbit(system, part.orbit, run.branch().settings.orbit); }));
     writer.add("", point, is_stable(point.solution));
     writer.end("");
     return true;
@@ -344,6 +329,8 @@ bool run_branch(const Study& study, const StudyRun& run, SharedFile& file, const
     const std::optional<OrbitRecord> first = first_orbit(study, run, file);
     if (run.kind == RunKind::orbit)
         return compute_orbit(study, run, system, file, first, options, writer);
+    if (run.kind == RunKind::equilibrium)
+        return run_equilibrium(study, run, system, file, options, report, writer);
     if (run.kind == RunKind::ladder) {
         if (!first)
             throw InputError(run.start->place, fmt::format("run '{}' has no grazings", run.start->run),

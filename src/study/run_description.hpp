@@ -19,6 +19,10 @@ namespace graze {
 // their reader elsewhere. Stored texts are compared, so that the order of the fields must not change, and a new field
 // is written only where it differs from its default.
 
+/// Whether runs of orbits of this kind may begin at an initial state.
+inline bool begins_anywhere(RunKind kind) {
+    return kind == RunKind::orbit || kind == RunKind::equilibrium || kind == RunKind::follow;
+}
 /// The contents of the file of a run's table. Empty when the file cannot be read: the error is thrown when the run is
 /// carried out.
 std::string text_of_table(const BranchRequest& branch);
@@ -40,6 +44,14 @@ void describe_bounds(Fields& fields, Bounds& bounds, const Model& model) {
     fields.list("bounds", bounds, [names = names_of(model.states)](auto& one, auto& bound) {
         one.named("state", bound.state, names);
         describe_fields(one, "least", bound.least, "greatest", bound.greatest);
+    });
+}
+
+template <class Fields, class Box>
+void describe_box(Fields& fields, Box& box, const Model& model) {
+    fields.list("within", box, [names = names_of(model.states)](auto& one, auto& range) {
+        one.named("state", range.state, names);
+        describe_fields(one, "least", range.least, "greatest", range.greatest);
     });
 }
 
@@ -151,6 +163,15 @@ template <class Fields, class Run>
 void describe_branch(Fields& fields, Run& run) {
     auto& branch = run.branch().settings;
     const bool begins = run.kind == RunKind::orbit || run.kind == RunKind::follow;
+    const bool rests = run.kind == RunKind::equilibrium;
+    fields.form({"within",
+                 "a box of states, in which all equilibria are searched for: in all modes, or in `mode` if that is "
+                 "given. Without a box, the one is found to which Newton's method leads from the initial state",
+                 rests},
+                "{ x = [-1, 1], v = [-2, 2] }", &read_within);
+    if (fields.has("within", !run.branch().within.empty()))
+        describe_box(fields, run.branch().within, run.model);
+    describe_if_given(fields, "every_mode", run.branch().every_mode);
     fields.form({"signature",
                  "segments of the orbit: labels of transitions or names of sections. The motion from the initial state "
                  "is followed until a part with these segments leads to an orbit",
@@ -179,7 +200,7 @@ void describe_branch(Fields& fields, Run& run) {
     if (run.is_followed())
         describe_continuation(fields, run);
     else
-        fields.denied({"unphysical", "accept an orbit of this signature that is not admissible"},
+        fields.denied({"unphysical", "accept an orbit of this signature that is not admissible", !rests},
                       "stop_when_unphysical", branch.stop_when_unphysical);
 }
 
@@ -280,16 +301,15 @@ void describe_axes(Fields& fields, Run& run, Motion& motion, Request& request) {
                  points ? "initial states (those of the model). They may be expressions in the varied parameters and "
                           "initial states, which are evaluated at each point"
                         : "initial states (those of the model)",
-                 points || run.kind == RunKind::orbit || run.kind == RunKind::follow},
+                 points || begins_anywhere(run.kind)},
                 "{ x = 0.1 }", read_apart);
     if (fields.has("following", !motion.following.empty()))
         fields.list("following", motion.following, [&](auto& one, auto& following) {
             one.named("state", following.state, names_of(run.model.states));
             one.expression("value", following.value);
         });
-    fields.form({"mode", "the initial mode (that of the model)",
-                 points || run.kind == RunKind::orbit || run.kind == RunKind::follow},
-                "\"NAME\"", read_apart);
+    fields.form({"mode", "the initial mode (that of the model)", points || begins_anywhere(run.kind)}, "\"NAME\"",
+                read_apart);
     fields.form({"set", "values of further parameters in this run", run.kind != RunKind::ladder}, "{ V = 1 }",
                 read_apart);
     fields.named("set", run.set, run.model.independent_parameters());

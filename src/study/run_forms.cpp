@@ -149,6 +149,20 @@ void read_bounds(const StudyReader& reader, StudyRun& run, const TomlEntry& entr
         run.motion().transient.bounds = run.motion().attractor.bounds;
 }
 
+void read_within(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    reader.each_of(entry, {}, [&](const TomlEntry& item) {
+        const auto state = run.model.find_state(item.name);
+        if (!state)
+            throw InputError(item.place, fmt::format("the model has no state '{}'", item.name),
+                             study_name_remedy(item.name, names_of(run.model.states)));
+        const auto [least, greatest] = reader.range(run.model, item);
+        run.branch().within.push_back({*state, least, greatest});
+    });
+    if (run.branch().within.empty())
+        reader.fail(entry, fmt::format("{} names no state", entry.path),
+                    "write within = { STATE = [LEAST, GREATEST] }, or leave it out");
+}
+
 namespace {
 
 /// Which branch through a point, or which curve.

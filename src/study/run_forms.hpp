@@ -23,6 +23,8 @@ void read_counted(const StudyReader& reader, StudyRun& run, const TomlEntry& ent
 
 void read_signature(const StudyReader& reader, StudyRun& run, const TomlEntry& entry);
 /// The file with a motion near the first orbit.
+/// The box in which equilibria are searched for.
+void read_within(const StudyReader& reader, StudyRun& run, const TomlEntry& entry);
 void read_orbit_table(const StudyReader& reader, StudyRun& run, const TomlEntry& entry);
 void read_monitors(const StudyReader& reader, StudyRun& run, const TomlEntry& entry);
 void read_along(const StudyReader& reader, StudyRun& run, const TomlEntry& entry);

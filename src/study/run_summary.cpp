@@ -46,7 +46,7 @@ std::string first_remedy(const StoredRun& run, const LabelCounts& counts) {
 /// How the parts of a branch ended: what the last point of each says.
 std::vector<std::pair<std::string, std::string>> ends_of(const StoredRun& run) {
     std::vector<std::pair<std::string, std::string>> ends; // parts in the order in which they ended
-    if (!run.record.is_followed())
+    if (!run.record.is_followed() && run.record.kind != name_of(RunKind::equilibrium))
         return ends;
     auto rows = run.rows({.columns = {"part", "detail"}});
     while (rows.next()) {

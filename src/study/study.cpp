@@ -61,7 +61,7 @@ std::size_t BranchRequest::kept_conditions() const {
 }
 
 void BranchRequest::validate(RunKind kind, const Model& model) const {
-    if (kind == RunKind::orbit)
+    if (!is_followed(kind))
         return settings.validate_orbit(model);
     BranchSettings known = settings;
     if (kind == RunKind::curve && keeps_point()) {

@@ -240,6 +240,7 @@ void read_orbit_table(const StudyReader& reader, StudyRun& run, const TomlEntry&
 void complete_branch(StudyRun& run, const RunKeys& keys) {
     BranchRequest& branch = run.branch();
     branch.settings.continuation.accuracy = branch.settings.orbit.accuracy;
+    branch.every_mode = !branch.within.empty() && !keys.contains("mode");
     if (keys.contains("tolerance"))
         branch.set_tolerance(branch.simulation.tolerance);
 }
@@ -257,19 +258,19 @@ void check_branch(const StudyReader& reader, const StudyRun& run, const TomlEntr
                          run.kind == RunKind::curve
                              ? "give along = { PARAMETER = [LEAST, GREATEST], OTHER = [LEAST, GREATEST] }"
                              : "give along = { PARAMETER = [LEAST, GREATEST] }");
-    if (run.kind == RunKind::orbit)
+    if (!run.is_followed())
         for (const Monitor& monitor : branch.settings.monitors)
             if (monitor.fixed || !monitor.crossings.empty() || monitor.least || monitor.greatest)
                 reader.fail(keys.at("monitors"),
-                            fmt::format("monitor '{}' is fixed, reported or bounded, and a run of kind \"orbit\" "
+                            fmt::format("monitor '{}' is fixed, reported or bounded, and a run of kind \"{}\" "
                                         "follows nothing",
-                                        monitor.name),
+                                        monitor.name, name_of(run.kind)),
                             "leave that out, or choose kind = \"continue\"");
     with_place(
         entry.place,
         [&] {
             branch.validate(run.kind, run.model);
-            if (!run.start && !branch.has_table() && branch.signature.empty())
+            if (!run.start && !branch.has_table() && branch.signature.empty() && run.kind != RunKind::equilibrium)
                 branch.attractor.validate(run.model);
         },
         entry.path + ": ");

@@ -63,8 +63,9 @@ void check_beginning(const StudyReader& reader, RunKind kind, const RunKeys& key
     if (keys.contains("events") && !keys.contains("contacts") && !keys.contains("greatest_speed"))
         refuse("events", "`events` has no effect here: it says which contacts count, and none are counted",
                "leave it out, or give `contacts` or `greatest_speed`");
-    for (const char* other : {"from", "mode", "signature", "table"})
+    for (const char* other : {"from", "mode", "signature", "table", "within"})
         refuse_two("start", other);
+    refuse_two("within", "from");
     for (const char* other : {"from", "mode"})
         refuse_two("table", other);
     if (is_branch(kind))

@@ -9,16 +9,17 @@ namespace graze {
 
 /// What a run of a study computes.
 enum class RunKind {
-    simulate, ///< one motion of given duration
-    sweep,    ///< the attractors of motions as a parameter changes step by step
-    basin,    ///< the attractors of motions from many initial states
-    orbit,    ///< one periodic orbit
-    follow,   ///< a branch of periodic orbits; called "continue" in studies and results
-    curve,    ///< a curve of special points in two parameters
-    ladder,   ///< a sequence of grazing orbits, each found from the one before
-    record,   ///< measured records
-    identify, ///< parameters fitted to measured records
-    atlas     ///< a sweep over a box of parameters, from which an exploration of all branches and curves begins
+    simulate,    ///< one motion of given duration
+    sweep,       ///< the attractors of motions as a parameter changes step by step
+    basin,       ///< the attractors of motions from many initial states
+    orbit,       ///< one periodic orbit
+    equilibrium, ///< one equilibrium, or all in a box of states
+    follow,      ///< a branch of periodic orbits or equilibria; called "continue" in studies and results
+    curve,       ///< a curve of special points in two parameters
+    ladder,      ///< a sequence of grazing orbits, each found from the one before
+    record,      ///< measured records
+    identify,    ///< parameters fitted to measured records
+    atlas        ///< a sweep over a box of parameters, from which an exploration of all branches and curves begins
 };
 
 /// The names of all kinds, in the order of RunKind.
@@ -36,7 +37,7 @@ bool seeks_attractors(RunKind kind);
 bool is_swept(RunKind kind);
 /// Whether runs of this kind follow orbits along a branch, a curve or a ladder.
 bool is_followed(RunKind kind);
-/// Whether the points of runs of this kind are periodic orbits.
+/// Whether the points of runs of this kind are periodic orbits or equilibria.
 bool is_branch(RunKind kind);
 /// Whether the points of runs of this kind are measured records or results of fits to them.
 bool is_measured(RunKind kind);

@@ -7,10 +7,11 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace graze {
 
-/// What runs of the kinds orbit, continue, curve and ladder ask for.
+/// What runs of the kinds orbit, equilibrium, continue, curve and ladder ask for.
 struct BranchRequest {
     std::string signature; ///< of the first orbit; empty: any
     Place signature_place;
@@ -20,6 +21,8 @@ struct BranchRequest {
     SweepDirection direction = SweepDirection::up; ///< in which the parameter changes at first
     std::size_t rungs = 8;                         ///< of ladders: number of grazings at most
     bool touches = false;                          ///< OrbitRecord::touch is computed for orbits that touch
+    std::vector<StateBounds> within;               ///< box in which equilibria are searched for; empty: none
+    bool every_mode = false;                       ///< search for them in all modes, not only in the initial one
     AttractorOptions attractor;                    ///< how a simulated motion settles on the first orbit
     SimulationOptions simulation;                  ///< of that motion; orbits have the tolerance of `settings`
 
