@@ -11,7 +11,6 @@ namespace graze {
 
 namespace {
 
-constexpr double unbounded = std::numeric_limits<double>::infinity();
 constexpr double tiniest = std::numeric_limits<double>::denorm_min();
 
 /// Returns the interval between the least and the largest of rounded values. Exact zeros are not moved: signs would be

@@ -150,8 +150,6 @@ std::vector<long double> exact_values(const testing::OperationList& list, std::s
             values.push_back(item.value);
         else if (item.operation == Operation::symbol)
             values.push_back(symbols[item.left]);
-        else if (item.operation == Operation::erf)
-            values.push_back(std::erf(values[item.left]));
         else
             values.push_back(testing::OperationList::apply(
                 item.operation, values[item.left], values[arity(item.operation) == 2 ? item.right : item.left]));
