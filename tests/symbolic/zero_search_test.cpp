@@ -381,6 +381,10 @@ TEST(ZeroSearchTest, PassesPolesAndEdgesOfDomains) {
     expect_zeros(Equations{{"x", "y"}, {"log(x) - y", "y + 1"}}.zeros({-3, -3}, {3, 3}), {{std::exp(-1), -1}});
     expect_zeros(Equations{{"x"}, {"(x - 1)^1.5 + x - 2"}}.zeros({-3}, {4}), {{1 + 0.5698402909980532659}});
     expect_zeros(Equations{{"x"}, {"log(x)"}}.zeros({-3}, {-1}), {});
+    // Proofs hold where all is defined.
+    const ZeroSearch beside = Equations{{"x"}, {"(x - 1)^1.5 + x - 1.01"}}.zeros({-3}, {4});
+    ASSERT_EQ(beside.zeros.size(), 1u);
+    EXPECT_GE(beside.zeros[0].alone[0].lower, 1);
     // A function that jumps has a sign change without a zero.
     const ZeroSearch jump = Equations{{"x"}, {"atan(1/x)"}}.zeros({-1}, {1});
     EXPECT_TRUE(jump.zeros.empty());
