@@ -14,15 +14,15 @@ namespace graze {
 namespace {
 
 /// An interval of the section, in micrometres.
-struct Interval {
+struct Stretch {
     double left, right;
 };
-using Intervals = std::vector<Interval>; ///< disjoint, from left to right
+using Stretches = std::vector<Stretch>; ///< disjoint, from left to right
 
-Intervals joined(Intervals all) {
-    std::sort(all.begin(), all.end(), [](const Interval& a, const Interval& b) { return a.left < b.left; });
-    Intervals result;
-    for (const Interval& one : all)
+Stretches joined(Stretches all) {
+    std::sort(all.begin(), all.end(), [](const Stretch& a, const Stretch& b) { return a.left < b.left; });
+    Stretches result;
+    for (const Stretch& one : all)
         if (!result.empty() && one.left <= result.back().right)
             result.back().right = std::max(result.back().right, one.right);
         else
@@ -30,10 +30,10 @@ Intervals joined(Intervals all) {
     return result;
 }
 
-/// Intervals of a line y = const within polygons. Corners lie on the grid; the line is put between its rows.
-Intervals cut(const std::vector<GridPolygon>& polygons, double y) {
+/// Stretches of a line y = const within polygons. Corners lie on the grid; the line is put between its rows.
+Stretches cut(const std::vector<GridPolygon>& polygons, double y) {
     const double row = std::floor(y * grid_per_micrometre) + 0.5;
-    Intervals all;
+    Stretches all;
     for (const GridPolygon& polygon : polygons) {
         std::vector<double> crossings;
         for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -51,10 +51,10 @@ Intervals cut(const std::vector<GridPolygon>& polygons, double y) {
 }
 
 /// Complement of intervals within the whole.
-Intervals outside_of(const Intervals& intervals, const Interval& whole) {
-    Intervals rest;
+Stretches outside_of(const Stretches& intervals, const Stretch& whole) {
+    Stretches rest;
     double left = whole.left;
-    for (const Interval& one : intervals) {
+    for (const Stretch& one : intervals) {
         if (one.left > left)
             rest.push_back({left, one.left});
         left = std::max(left, one.right);
@@ -64,9 +64,9 @@ Intervals outside_of(const Intervals& intervals, const Interval& whole) {
     return rest;
 }
 
-bool holds(const Intervals& intervals, double x) {
+bool holds(const Stretches& intervals, double x) {
     return std::any_of(intervals.begin(), intervals.end(),
-                       [&](const Interval& one) { return one.left <= x && x < one.right; });
+                       [&](const Stretch& one) { return one.left <= x && x < one.right; });
 }
 
 /// The intervals of a section, and its fabrication steps.
@@ -95,7 +95,7 @@ public:
     std::vector<ProcessStep> steps() const {
         constexpr ProcessMaterial resist = ProcessMaterial::resist, aluminium = ProcessMaterial::aluminium;
         const double front = file_->process.wafer_thickness;
-        const Intervals all{whole_}, kept = outside_of(etched_, whole_);
+        const Stretches all{whole_}, kept = outside_of(etched_, whole_);
         const Slabs whole = film_of(ProcessMaterial::silicon, all, 0, front), with_chambers = carved(all),
                     through = carved(kept), below = base();
         const Slabs on_back = film_of(resist, outside_of(chambers_, whole_), -film_, 0),
@@ -125,18 +125,18 @@ private:
             all.insert(all.end(), part.begin(), part.end());
         return all;
     }
-    static Slabs film_of(ProcessMaterial material, const Intervals& intervals, double low, double high) {
+    static Slabs film_of(ProcessMaterial material, const Stretches& intervals, double low, double high) {
         Slabs slabs;
-        for (const Interval& one : intervals)
+        for (const Stretch& one : intervals)
             slabs.push_back({material, one.left, one.right, low, high});
         return slabs;
     }
     /// The device wafer with its chambers, where it remains.
-    Slabs carved(const Intervals& left) const {
+    Slabs carved(const Stretches& left) const {
         Slabs slabs;
-        for (const Interval& one : left) {
+        for (const Stretch& one : left) {
             std::vector<double> ends{one.left, one.right};
-            for (const Interval& chamber : chambers_)
+            for (const Stretch& chamber : chambers_)
                 for (const double end : {chamber.left, chamber.right})
                     if (one.left < end && end < one.right)
                         ends.push_back(end);
@@ -154,12 +154,12 @@ private:
             {ProcessMaterial::epoxy, whole_.left, whole_.right, -film_, 0}};
     }
     /// Metal on the front, on the walls, and on epoxy that is visible from the front, but not below overhangs.
-    Slabs coat(const Intervals& kept) const {
+    Slabs coat(const Stretches& kept) const {
         const double front = file_->process.wafer_thickness, metal = film_ / 2;
         Slabs slabs = together({film_of(ProcessMaterial::aluminium, kept, front, front + metal),
                                 film_of(ProcessMaterial::aluminium, outside_of(kept, whole_), 0, metal)});
         constexpr double beside_wall = 1e-3;
-        for (const Interval& one : kept) {
+        for (const Stretch& one : kept) {
             const double of_wall = std::min(metal, (one.right - one.left) / 4);
             if (one.left > whole_.left)
                 slabs.push_back({ProcessMaterial::aluminium, one.left, one.left + of_wall,
@@ -174,8 +174,8 @@ private:
     static constexpr double film = 0.08; ///< relative to the wafer's thickness: displayed thickness of films
     const DeviceFile* file_;
     double film_;
-    Interval whole_{};
-    Intervals chambers_, etched_, marks_;
+    Stretch whole_{};
+    Stretches chambers_, etched_, marks_;
 };
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 #include "symbolic/evaluate.hpp"
+#include "symbolic/interval_operation.hpp"
 #include "symbolic/subgraph.hpp"
 
 #include <algorithm>
@@ -135,7 +136,8 @@ void Function::compile(const SymbolIndex& inputs, std::span<const Expression> ou
         used_ = {};
 }
 
-void Function::take_inputs(std::span<const double> inputs, std::span<double> slots) const {
+template <class Number>
+void Function::take_inputs(std::span<const Number> inputs, std::span<Number> slots) const {
     if (uses_all_)
         std::copy_n(inputs.begin(), inputs_, slots.begin());
     else
@@ -143,15 +145,16 @@ void Function::take_inputs(std::span<const double> inputs, std::span<double> slo
             slots[slot] = inputs[used_[slot]];
 }
 
-void Function::give_outputs(std::span<const double> slots, std::span<const double> inputs,
-                            std::span<double> results) const {
+template <class Number>
+void Function::give_outputs(std::span<const Number> slots, std::span<const Number> inputs,
+                            std::span<Number> results) const {
     if (outputs_.size() == output_count_) {
         for (std::size_t output = 0; output < outputs_.size(); ++output)
             results[output] = slots[outputs_[output]];
         return;
     }
     if (others_ == Others::zero)
-        std::fill_n(results.begin(), output_count_, 0.0);
+        std::fill_n(results.begin(), output_count_, Number{});
     else if (results.data() != inputs.data())
         std::copy_n(inputs.begin(), output_count_, results.begin());
     for (std::size_t output = 0; output < outputs_.size(); ++output)
@@ -162,12 +165,12 @@ void Function::evaluate(std::span<const double> inputs, std::span<double> result
     require_room(inputs.size(), inputs_, "inputs of a function");
     require_room(results.size(), output_count_, "results of a function");
     require_room(work.size(), slots_, "numbers for a function to work in");
-    take_inputs(inputs, work);
+    take_inputs<double>(inputs, work);
     for (const auto& [slot, value] : numbers_)
         work[slot] = value;
     for (const Step& step : steps_)
         work[step.result] = evaluate_operation(step.operation, work[step.left], work[step.right]);
-    give_outputs(work, inputs, results);
+    give_outputs<double>(work, inputs, results);
 }
 
 void Function::error_bounds(std::span<const double> inputs, std::span<const double> errors, std::span<double> bounds,
@@ -177,8 +180,8 @@ void Function::error_bounds(std::span<const double> inputs, std::span<const doub
     require_room(bounds.size(), output_count_, "error bounds of a function");
     require_room(work.size(), 2 * slots_, "numbers for a function to work in");
     const std::span<double> values = work.first(slots_), uncertain = work.subspan(slots_, slots_);
-    take_inputs(inputs, values);
-    take_inputs(errors, uncertain);
+    take_inputs<double>(inputs, values);
+    take_inputs<double>(errors, uncertain);
     for (const auto& [slot, value] : numbers_) {
         values[slot] = value;
         uncertain[slot] = 0;
@@ -189,7 +192,53 @@ void Function::error_bounds(std::span<const double> inputs, std::span<const doub
         uncertain[step.result] = operation_error(step.operation, values[step.result], left, uncertain[step.left], right,
                                                  uncertain[step.right]);
     }
-    give_outputs(uncertain, errors, bounds);
+    give_outputs<double>(uncertain, errors, bounds);
+}
+
+void Function::enclose(std::span<const Interval> inputs, std::span<Interval> results, std::span<Interval> work) const {
+    require_room(inputs.size(), inputs_, "inputs of a function");
+    require_room(results.size(), output_count_, "results of a function");
+    require_room(work.size(), slots_, "intervals for a function to work in");
+    take_inputs<Interval>(inputs, work);
+    for (const auto& [slot, value] : numbers_)
+        work[slot] = Interval::point(value);
+    for (const Step& step : steps_)
+        work[step.result] =
+            enclose_operation(step.operation, work[step.left], work[step.right], step.left == step.right);
+    give_outputs<Interval>(work, inputs, results);
+}
+
+bool Function::narrow(std::span<Interval> inputs, std::span<const Interval> wanted, std::span<Interval> work) const {
+    require_room(inputs.size(), inputs_, "inputs of a function");
+    require_room(output_count_, wanted.size(), "outputs of a function");
+    require_room(work.size(), slots_, "intervals for a function to work in");
+    // Only operations on which the wanted outputs depend are inverted: others may be undefined.
+    std::vector<bool> matters(slots_);
+    for (std::size_t output = 0; output < outputs_.size(); ++output) {
+        const std::size_t place = places_.empty() ? output : places_[output];
+        if (place >= wanted.size())
+            break;
+        Interval& value = work[outputs_[output]];
+        value = intersection(value, wanted[place]);
+        matters[outputs_[output]] = true;
+        if (value.empty())
+            return false;
+    }
+    for (std::size_t step = steps_.size(); step-- > 0;) {
+        const auto& [operation, result, left, right] = steps_[step];
+        if (!matters[result])
+            continue;
+        narrow_operands(operation, work[result], work[left], work[right], left == right);
+        matters[left] = matters[right] = true;
+        if (work[left].empty() || work[right].empty())
+            return false;
+    }
+    for (std::size_t slot = 0; slot < (uses_all_ ? inputs_ : used_.size()); ++slot) {
+        Interval& input = inputs[uses_all_ ? slot : used_[slot]];
+        input.lower = work[slot].lower;
+        input.upper = work[slot].upper;
+    }
+    return true;
 }
 
 std::vector<double> Function::operator()(std::span<const double> inputs) const {

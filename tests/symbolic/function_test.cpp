@@ -1,11 +1,17 @@
 #include "graze/symbolic/function.hpp"
 
 #include "graze/base/input_error.hpp"
+#include "graze/symbolic/interval.hpp"
+#include "graze/symbolic/transform.hpp"
+#include "symbolic/operation_list.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
 
 namespace graze::function_test {
 
@@ -133,6 +139,90 @@ TEST_F(FunctionTest, SharedPartsAreEvaluatedOnce) {
     const Function function(std::vector{x, y}, std::vector{e});
     EXPECT_LE(function.workspace(), 2 + 2 * 200u);
     EXPECT_EQ(function(std::vector{0.0, 0.0})[0], 0);
+}
+
+/// Values of all nodes of a graph, with more digits than enclosures have. NaN where an operation is undefined or too
+/// small for a number, and where one of its operands is NaN: the C library has 1^NaN = 1.
+std::vector<long double> exact_values(const testing::OperationList& list, std::span<const double> symbols) {
+    std::vector<long double> values;
+    for (const auto& item : list.items) {
+        if (item.operation == Operation::number)
+            values.push_back(item.value);
+        else if (item.operation == Operation::symbol)
+            values.push_back(symbols[item.left]);
+        else
+            values.push_back(testing::OperationList::apply(
+                item.operation, values[item.left], values[arity(item.operation) == 2 ? item.right : item.left]));
+        const int operands = arity(item.operation);
+        const long double left = operands > 0 ? values[item.left] : 0, right = operands == 2 ? values[item.right] : 1;
+        const bool can_be_zero = operands == 0 || left == 0 || right == 0 || item.operation < Operation::multiply ||
+                                 item.operation > Operation::exp;
+        if (!std::isfinite(values.back()) || std::isnan(left) || std::isnan(right) ||
+            (values.back() == 0 && !can_be_zero))
+            values.back() = std::numeric_limits<long double>::quiet_NaN();
+    }
+    return values;
+}
+
+TEST_F(FunctionTest, EnclosesRandomExpressions) {
+    testing::RandomOperations random(5, 2, true);
+    int contained = 0, smaller = 0;
+    for (int trial = 0; trial < 5000; ++trial) {
+        const auto own = Graph::create();
+        const std::vector<Expression> symbols{own->symbol("x"), own->symbol("y")};
+        const Expression expression = random.next(1 + static_cast<std::size_t>(trial) % 12).build(*own, symbols);
+        const Function function(symbols, std::vector{expression});
+        const auto list = testing::OperationList::of(expression, symbols);
+        const double extent = std::exp(random.uniform(-8, 1));
+        std::vector<Interval> box, bounds(1), work(function.workspace());
+        for (int k = 0; k < 2; ++k) {
+            const double lower = random.uniform(-3, 3);
+            box.push_back({lower, lower + extent});
+        }
+        function.enclose(box, bounds, work);
+        ASSERT_FALSE(std::isnan(bounds[0].lower) || std::isnan(bounds[0].upper)) << to_string(expression);
+        for (int sample = 0; sample < 10; ++sample) {
+            const std::vector<double> at{random.uniform(box[0].lower, box[0].upper),
+                                         random.uniform(box[1].lower, box[1].upper)};
+            const long double value = exact_values(list, at).back();
+            if (std::isnan(value) || std::abs(value) > 1e300L)
+                continue;
+            EXPECT_LE(bounds[0].lower, value) << to_string(expression);
+            EXPECT_GE(bounds[0].upper, value) << to_string(expression);
+            ++contained;
+            // Narrowing to this value keeps the point.
+            const double reach = 1e-12 * std::abs(static_cast<double>(value)) + 1e-300;
+            const std::vector wanted{Interval{static_cast<double>(value) - reach, static_cast<double>(value) + reach}};
+            auto narrowed = box;
+            function.enclose(narrowed, bounds, work);
+            EXPECT_TRUE(function.narrow(narrowed, wanted, work)) << to_string(expression);
+            EXPECT_TRUE(narrowed[0].contains(at[0]) && narrowed[1].contains(at[1])) << to_string(expression);
+            smaller += narrowed[0].width() < box[0].width() || narrowed[1].width() < box[1].width();
+        }
+    }
+    EXPECT_GT(contained, 10000);
+    EXPECT_GT(smaller, 3000);
+}
+
+TEST_F(FunctionTest, EnclosuresKnowWhereTheyHold) {
+    const Function function(std::vector{x, y}, std::vector{x * x, 1 / (x - y), sqrt(y), graph->number(3)});
+    std::vector<Interval> bounds(4), work(function.workspace());
+    function.enclose(std::vector<Interval>{{-1, 2}, {-1, 4}}, bounds, work);
+    EXPECT_EQ(bounds[0].lower, 0);
+    EXPECT_NEAR(bounds[0].upper, 4, 1e-14);
+    EXPECT_FALSE(bounds[1].continuous || bounds[1].bounded());
+    EXPECT_FALSE(bounds[2].continuous);
+    EXPECT_TRUE(bounds[3].is_point(3));
+    // 1/(x - y) = 1/4 where x = y + 4; the square root is not asked for, and need not exist.
+    std::vector<Interval> box{{-1, 2}, {-4, 0}};
+    function.enclose(box, bounds, work);
+    const std::vector<Interval> wanted{Interval::entire(), {0.25, 0.25}};
+    ASSERT_TRUE(function.narrow(box, wanted, work));
+    EXPECT_NEAR(box[0].lower, 0, 1e-13);
+    EXPECT_NEAR(box[1].upper, -2, 1e-13);
+    function.enclose(box, bounds, work);
+    EXPECT_FALSE(function.narrow(box, std::vector<Interval>{{5, 6}}, work));
+    EXPECT_THROW(function.enclose(box, std::span(bounds).first(1), work), InputError);
 }
 
 TEST_F(FunctionTest, FollowsIeeeRulesOutsideDomains) {

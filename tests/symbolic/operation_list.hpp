@@ -23,6 +23,9 @@ struct Bounded {
 inline double error_function(double a) {
     return std::erf(a);
 }
+inline long double error_function(long double a) {
+    return std::erf(a);
+}
 /// For a complex step, whose square is negligible.
 inline std::complex<double> error_function(std::complex<double> a) {
     return {std::erf(a.real()), a.imag() * 2 / std::sqrt(std::numbers::pi) * std::exp(-a.real() * a.real())};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/symbolic/expression.hpp"
+#include "graze/symbolic/interval.hpp"
 #include "graze/symbolic/symbol_index.hpp"
 
 #include <cstddef>
@@ -55,7 +56,21 @@ public:
     /// @param work   at least 2 workspace()
     void error_bounds(std::span<const double> inputs, std::span<const double> errors, std::span<double> bounds,
                       std::span<double> work) const;
-    /// The same with allocation: returns the outputs.
+    /// Encloses the values that the outputs have in a box of the inputs, those of exact arithmetic; numbers in the
+    /// expressions are taken as the doubles that they are.
+    /// @param inputs  inputs() intervals
+    /// @param results outputs() intervals
+    /// @param work    at least workspace(); its contents afterwards are what `narrow` needs
+    void enclose(std::span<const Interval> inputs, std::span<Interval> results, std::span<Interval> work) const;
+    /// Shrinks a box of the inputs to one that contains all its points at which the first outputs lie in given
+    /// intervals, by inverting the operations from the last to the first. F. Benhamou, F. Goualard, L. Granvilliers,
+    /// J.-F. Puget, Revising hull and box consistency, ICLP 1999.
+    /// @param inputs the box that `enclose` was given
+    /// @param wanted intervals of the first outputs; outputs beyond have any value, or none
+    /// @param work   as `enclose` has left it; its contents afterwards are unspecified
+    /// @return false if the box has no such point
+    bool narrow(std::span<Interval> inputs, std::span<const Interval> wanted, std::span<Interval> work) const;
+    /// The same as `evaluate` with allocation: returns the outputs.
     std::vector<double> operator()(std::span<const double> inputs) const;
 
 private:
@@ -64,8 +79,10 @@ private:
         std::uint32_t result, left, right;
     };
     void compile(const SymbolIndex& inputs, std::span<const Expression> outputs);
-    void take_inputs(std::span<const double> inputs, std::span<double> slots) const;
-    void give_outputs(std::span<const double> slots, std::span<const double> inputs, std::span<double> results) const;
+    template <class Number>
+    void take_inputs(std::span<const Number> inputs, std::span<Number> slots) const;
+    template <class Number>
+    void give_outputs(std::span<const Number> slots, std::span<const Number> inputs, std::span<Number> results) const;
 
     std::size_t inputs_ = 0;
     std::size_t slots_ = 0;
