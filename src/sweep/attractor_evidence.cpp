@@ -282,8 +282,10 @@ bool AttractorSearch::finish_equilibrium(const Equilibrium& equilibrium) {
     result_.mode = equilibrium.mode;
     result_.lyapunov.reset();
     result_.lyapunov_error.reset();
-    if (!equilibrium.driven && equilibrium.values.size() > 0)
+    if (!equilibrium.driven && equilibrium.values.size() > 0) {
         result_.lyapunov = equilibrium.growth();
+        result_.eigenvalues.assign(equilibrium.values.begin(), equilibrium.values.end());
+    }
     if (setting_->map.is_phase() && watcher_.remembered() > 1) {
         // Returns continue as those of an orbit of period 1.
         result_.period = 1;
