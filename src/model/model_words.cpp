@@ -39,6 +39,28 @@ std::string watched_by(const Model& model, const Mode& mode) {
     return names.empty() ? "" : fmt::format("watches {}", fmt::join(names, ", "));
 }
 
+std::string slide_text(const Model& model, const Slide& slide) {
+    return fmt::format("{} = 0 between {} and {}, {}", model.events[slide.surface].name, model.modes[slide.left].name,
+                       model.modes[slide.right].name,
+                       slide.convention == SlideConvention::filippov ? "Filippov"
+                                                                     : fmt::format("Utkin ({})", slide.control));
+}
+
+std::vector<std::string> sliding_rates(const Model& model, const Slide& slide) {
+    std::vector<std::string> result;
+    const auto mode = model.find_mode(slide.name);
+    for (std::size_t i = 0; mode && i < model.modes[*mode].rates.size(); ++i)
+        result.push_back(fmt::format("{}' = {}", model.states[i].name, formula(model.modes[*mode].rates[i])));
+    return result;
+}
+
+std::string friction_text(const Friction& friction) {
+    const std::string rest =
+        friction.static_coefficient ? fmt::format(", at rest {}", formula(*friction.static_coefficient)) : "";
+    return fmt::format("against {}: coefficient {}{}, normal force {}", formula(friction.velocity),
+                       formula(friction.coefficient), rest, formula(friction.normal));
+}
+
 std::string section_text(const Model& model, const Section& section) {
     if (section.state)
         return fmt::format("{} = {}", model.states[*section.state].name, formula(section.value));

@@ -133,6 +133,44 @@ TEST(Sliding, BranchContinuesWithDryFriction) {
     EXPECT_NEAR(*other.map.clearance_rate, *one.map.clearance_rate, 1e-8);
 }
 
+/// A slide between the two fields makes the same branch and the same grazing-sliding as the model written by hand.
+TEST(Sliding, ASlideGivesTheBranchOfTheModelThatIsWrittenByHand) {
+    Model written = belt();
+    written.set_parameter("nu", 1.711);
+    std::string text = write_model(written);
+    text = text.substr(0, text.find("[modes.below]")) + R"toml(
+[modes.below]
+rates = { x = "v", v = "smooth + alpha0", theta = "nu" }
+[modes.above]
+rates = { x = "v", v = "smooth - alpha0", theta = "nu" }
+[events]
+reach = "v - 1"
+[slides.stick]
+surface = "reach"
+between = ["below", "above"]
+[sections.phase0]
+state = "theta"
+value = 0
+[initial]
+mode = "below"
+)toml";
+    const Model made = model_from(text);
+    std::vector<SpecialPoint> points;
+    for (const Model& model : {written, made}) {
+        const BranchSettings settings = in_parameter(model, "nu", 1.65, 1.72, -1);
+        const auto touches =
+            of_type(follow_branch(System(model), settled(model, "phase0").orbit, settings), PointType::grazing);
+        ASSERT_FALSE(touches.empty());
+        points.push_back(touches[0]);
+        const Judged one(model, touches[0], settings.parameter);
+        EXPECT_EQ(one.map.contact.order, MapOrder::linear) << one.map.reason << one.map.contact.reason;
+        EXPECT_EQ(one.verdict.attractor, AttractorKind::chaotic);
+        EXPECT_EQ(one.trial.outcome, TrialOutcome::agreed) << one.trial.reason;
+    }
+    EXPECT_NEAR(points[0].parameter, points[1].parameter, 1e-11);
+    EXPECT_EQ(points[0].solution.orbit.segments(), points[1].solution.orbit.segments());
+}
+
 /// The sliding orbit exists before the touch, and neither exists beyond it.
 TEST(Sliding, GrazingOnABeltMayBeAFold) {
     Model model = belt();
