@@ -111,6 +111,7 @@ private:
     void expand_transitions() {
         std::vector<Transition> given = std::move(model_.transitions), made;
         std::set<std::pair<std::size_t, std::size_t>> written;
+        std::size_t alternatives = 0;
         for (const Transition& transition : given)
             written.emplace(transition.mode, transition.event);
         for (std::size_t number = 1; number <= given.size(); ++number) {
@@ -120,6 +121,7 @@ private:
                 made.push_back(transition);
                 made.back().next = expanded(transition, {});
                 made.back().chatter = expanded_chatter(transition, {}, number);
+                require_few(alternatives += made.back().next.size());
                 continue;
             }
             for (const FrictionVariant& variant : modes_.variants(transition.mode)) {
@@ -131,10 +133,20 @@ private:
                 one.derived = true;
                 one.next = expanded(transition, modes_.states_of(*from, variant));
                 one.chatter = expanded_chatter(transition, modes_.states_of(*from, variant), number);
+                require_few(alternatives += one.next.size());
                 made.push_back(std::move(one));
             }
         }
         model_.transitions = std::move(made);
+    }
+
+    /// A few lines of a file must not become a model that fills the memory.
+    void require_few(std::size_t alternatives) const {
+        constexpr std::size_t most = 20'000;
+        if (alternatives > most)
+            fail("friction." + model_.frictions.front().name,
+                 fmt::format("transitions between modes with frictions have more than {} alternatives", most),
+                 "use fewer frictions in a mode, or fewer modes and transitions");
     }
 
     std::string label_of(const Transition& transition) const {

@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <span>
+#include <string>
 #include <utility>
 
 namespace graze {
@@ -73,14 +75,21 @@ bool same_symmetry(const Symmetry& one, const Symmetry& other) {
            same_expressions(one.map, other.map);
 }
 
+bool same(const Event& one, const Event& other) {
+    return one.function == other.function;
+}
+bool same(const Jump& one, const Jump& other) {
+    return one.map == other.map;
+}
+
 template <class Item>
 std::size_t derived_item(std::vector<Item>& items, const Places& places, const std::string& path, Item item,
                          const char* kind) {
     if (const auto known = find_named(items, item.name)) {
-        if (!items[*known].derived)
+        if (!items[*known].derived || !same(items[*known], item))
             throw InputError(places.of(path),
                              fmt::format("{} makes the {} '{}', but there is one of this name", path, kind, item.name),
-                             fmt::format("rename your {}", kind));
+                             "rename what it is made for, or the other one");
         return *known;
     }
     item.derived = true;
@@ -93,7 +102,7 @@ void add_derived_mode(Model& model, const Places& places, const std::string& pat
         if (!model.modes[*known].rates.empty())
             throw InputError(places.of(path),
                              fmt::format("{} makes the mode '{}', but there is one of this name", path, name),
-                             "rename your mode");
+                             "rename what it is made for, or the other one");
         model.modes[*known].derived = true;
         return;
     }
@@ -172,6 +181,13 @@ std::vector<RubbingMode> rubbing_modes(const Model& model) {
 
 void name_derived_modes(Model& model, const Places& places) {
     constexpr std::size_t most_frictions = 3;
+    std::set<std::string> made;
+    const auto add = [&](const std::string& path, const std::string& name) {
+        if (!made.insert(name).second)
+            throw InputError(places.of(path), fmt::format("{} makes a second mode '{}'", path, name),
+                             "rename one of the two for which it is made");
+        add_derived_mode(model, places, path, name);
+    };
     for (const RubbingMode& rubbing : rubbing_modes(model)) {
         const std::string name = model.modes[rubbing.mode].name;
         if (rubbing.frictions.size() > most_frictions)
@@ -186,12 +202,12 @@ void name_derived_modes(Model& model, const Places& places) {
                     longer.push_back(fmt::format("{}-{}", one, word));
             names = std::move(longer);
             if (friction == rubbing.frictions.back())
-                for (std::string& one : names)
-                    add_derived_mode(model, places, "friction." + model.frictions[friction].name, std::move(one));
+                for (const std::string& one : names)
+                    add("friction." + model.frictions[friction].name, one);
         }
     }
     for (const Slide& slide : model.slides)
-        add_derived_mode(model, places, "slides." + slide.name, slide.name);
+        add("slides." + slide.name, slide.name);
 }
 
 void choose_initial_mode(Model& model) {

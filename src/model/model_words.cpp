@@ -1,14 +1,33 @@
 #include "model/model_words.hpp"
 
 #include "graze/symbolic/transform.hpp"
+#include "symbolic/subgraph.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 namespace graze {
 
+namespace {
+
+/// Returns the number of operations in the text of an expression, which repeats shared parts.
+double written_operations(const Expression& expression) {
+    const Subgraph part = subgraph_of({&expression, 1});
+    std::vector<double> counts;
+    for (const Subgraph::Item& item : part.items) {
+        const int operands = arity(part.node(item).operation);
+        counts.push_back(1 + (operands > 0 ? counts[item.left] : 0) + (operands > 1 ? counts[item.right] : 0));
+    }
+    return counts.back();
+}
+
+} // namespace
+
 std::string formula(const Expression& expression) {
     constexpr std::size_t longest = 100;
+    constexpr double most_operations = 1e6;
+    if (const double operations = written_operations(expression); operations > most_operations)
+        return fmt::format("an expression with {:.3g} operations", operations);
     std::string text = to_string(expression);
     if (text.size() > longest) {
         text.resize(longest - 4);

@@ -85,7 +85,7 @@ private:
     /// Makes the modes of both sides watch the surface.
     void meet(const Slide& slide) {
         const std::string path = "slides." + slide.name;
-        const Event& surface = model_.events[slide.surface];
+        const Event surface = model_.events[slide.surface];
         const std::size_t rising = derived_event(model_, places_, path,
                                                  {.name = rising_name(slide),
                                                   .text = fmt::format("'{}' from the other side", surface.name),

@@ -167,8 +167,46 @@ mode = "below"
         EXPECT_EQ(one.verdict.attractor, AttractorKind::chaotic);
         EXPECT_EQ(one.trial.outcome, TrialOutcome::agreed) << one.trial.reason;
     }
+    EXPECT_EQ(points[0].detail, "reach");
+    EXPECT_EQ(points[1].detail, "reach-rising; grazing-sliding");
     EXPECT_NEAR(points[0].parameter, points[1].parameter, 1e-11);
     EXPECT_EQ(points[0].solution.orbit.segments(), points[1].solution.orbit.segments());
+}
+
+/// x' = -x + A cos(theta) - sign(x): the symmetric orbit crosses x = 0 where the other side just ceases to push back,
+/// cos(theta) = -1/A, if sqrt(A^2 - 1) = 1 + 2 tanh(pi/2).
+TEST(Sliding, CrossingSlidingHasItsNameAndItsClosedForm) {
+    const Model model = model_from(R"toml(name = "first order"
+[parameters]
+A = 3.6
+[states]
+x = 1
+theta = { initial = 0, period = "2*pi" }
+[modes.low]
+rates = { x = "-x + A*cos(theta) + 1", theta = 1 }
+[modes.high]
+rates = { x = "-x + A*cos(theta) - 1", theta = 1 }
+[events]
+zero = "x"
+[slides.still]
+surface = "zero"
+between = ["low", "high"]
+[sections.phase0]
+state = "theta"
+value = 0
+[initial]
+mode = "high"
+)toml");
+    const BranchSettings settings = in_parameter(model, "A", 2.5, 3.6, -1);
+    const Branch branch = follow_branch(System(model), settled(model, "phase0").orbit, settings);
+    std::size_t found = 0;
+    for (const SpecialPoint& point : branch.special) {
+        if (point.detail.find("crossing-sliding") == std::string::npos)
+            continue;
+        ++found;
+        EXPECT_NEAR(point.parameter, std::hypot(1, 1 + 2 * std::tanh(std::numbers::pi / 2)), 1e-9) << point.detail;
+    }
+    EXPECT_GE(found, 1U);
 }
 
 /// The sliding orbit exists before the touch, and neither exists beyond it.

@@ -358,7 +358,18 @@ TEST(Slide, MistakesHavePlacesAndRemedies) {
     at(relay + "[slides.again]\nsurface = \"level\"\nbetween = [\"off\", \"on\"]\n",
        "21:1: two slides have mode 'off' at the surface 'level'");
     at(with(relay, "level = \"x\"", "level = \"x\"\nlevel-rising = \"y\""),
-       "14:9: slides.hold makes the event 'level-rising', but there is one of this name; rename your event");
+       "14:9: slides.hold makes the event 'level-rising', but there is one of this name; rename what it is made for");
+    const auto more = [](const char* slide, const char* left, const char* right, int rate) {
+        return fmt::format(
+            "[modes.{1}]\nrates = {{ x = {3}, y = 1 }}\n[modes.{2}]\nrates = {{ x = -2, y = 1 }}\n[slides.{0}]\n"
+            "surface = \"level\"\nbetween = [\"{1}\", \"{2}\"]\n",
+            slide, left, right, rate);
+    };
+    at(relay + more("o", "c-d", "e", 2) + more("o-c", "d", "f", 3),
+       "30:9: slides.o-c makes the event 'o-c-d', but there is one of this name; rename what it is made for");
+    at(block + "[events.zero]\nfunction = \"v\"\n" +
+           "[slides.free-stick]\nsurface = \"zero\"\nbetween = [\"free\", \"free\"]\n",
+       "29:9: slides.free-stick makes a second mode 'free-stick'; rename one of the two");
 }
 
 TEST(Friction, MistakesHavePlacesAndRemedies) {
@@ -379,7 +390,8 @@ TEST(Friction, MistakesHavePlacesAndRemedies) {
     at(with(block, "(force - rub)/2", "force/2"), "13:11: no mode has the friction 'rub' in its rates");
     at(with(block, "x = \"v\", v = \"(force - rub)/2\"", "x = \"v - rub\", v = \"force/2\""),
        "12:1: the friction 'rub' in mode 'free' has no effect on the rate of its velocity");
-    at(with(block, "0.1*v\"", "0.1*v - rub\""), "9:30: definitions.force.value uses the friction 'rub'; write it in rates only");
+    at(with(block, "0.1*v\"", "0.1*v - rub\""),
+       "9:30: definitions.force.value uses the friction 'rub'; write it in rates only");
     at(with(block, "wall = \"x + 2\"", "wall = \"x + 2 - rub\""),
        "19:17: events.wall.function uses the friction 'rub'; write it in rates only");
     at(with(block, "friction.rub", "friction.mu"),
