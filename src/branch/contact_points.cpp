@@ -6,6 +6,7 @@
 #include "branch/grazing_switch.hpp"
 #include "branch/orbit_quantity.hpp"
 #include "branch/reordering.hpp"
+#include "branch/sliding_name.hpp"
 #include "flow/lie_derivative.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/grazing/cycle_map.hpp"
@@ -70,6 +71,11 @@ bool guard_is_undetermined(const TestedPoint& point, std::size_t segment) {
     return held && held->kind == HeldLimit::Kind::stop && held->segment == segment && held->zero_durations > 0;
 }
 
+void add_sliding_name(const BranchState& state, SpecialPoint& special) {
+    if (const std::string name = sliding_name(state.system(), special); !name.empty())
+        special.detail += "; " + name;
+}
+
 } // namespace
 
 // Grazing: the approach speed at the end of an arc vanishes, or an event function has a minimum of zero inside an arc.
@@ -121,6 +127,7 @@ bool confirm_grazing(BranchState& state, SpecialPoint& special, const BranchTest
         special.solution.multipliers.clear();
     special.detail =
         fmt::format("{}{}", state.model().events[special.event].name, special.at_end ? ", no approach speed" : "");
+    add_sliding_name(state, special);
     return true;
 }
 
@@ -193,8 +200,9 @@ void test_vanishing(const TestedPoint& point, std::vector<BranchTest>& tests) {
                          .value = has_zero_duration(point, s) ? not_a_number : point.solution.orbit.durations[s]});
 }
 
-bool confirm_vanishing(BranchState&, SpecialPoint& special, const BranchTest&) {
+bool confirm_vanishing(BranchState& state, SpecialPoint& special, const BranchTest&) {
     special.detail = fmt::format("segment {}", special.segment + 1);
+    add_sliding_name(state, special);
     return true;
 }
 
@@ -249,6 +257,7 @@ void test_guard(const TestedPoint& point, std::vector<BranchTest>& tests) {
 bool confirm_guard(BranchState& state, SpecialPoint& special, const BranchTest&) {
     special.detail =
         fmt::format("after {}", end_name(state.model(), special.solution.orbit.signature[special.segment]));
+    add_sliding_name(state, special);
     return true;
 }
 
