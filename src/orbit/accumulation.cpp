@@ -264,13 +264,16 @@ ChatterContacts follow_chatter(const Simulation& simulation, const Accumulation&
         contacts.problem = "its duration is not positive";
         return contacts;
     }
-    // A motion that leaves the surface without speed is within round-off of it for a time, and is not watched there.
+    // Just after it has left the surface the motion is within round-off of it, and is not watched there.
     std::vector<double> state = contacts.starts.front();
     const std::vector<double> height = accumulation.heights(state, parameters);
-    const double size = accumulation.size(state, parameters);
+    const double by_speed = std::abs(height[1]) * duration,
+                 size = accumulation.size(state, parameters) + by_speed + std::abs(height[2]) * duration * duration;
     double blind = 0;
-    if (std::abs(height[0]) <= on_surface * size && std::abs(height[1]) * duration <= without_speed * size) {
+    if (std::abs(height[0]) <= on_surface * size) {
         blind = blind_share * duration;
+        if (by_speed > without_speed * size && height[1] > 0 && height[2] < 0) // a known flight may be shorter
+            blind = std::min(blind, -0.5 * height[1] / height[2]);
         ModeFlow flow = flow_of(simulation);
         flow.set_parameters(parameters);
         if (flow.run(accumulation.mode(), state, blind) != ModeFlow::Ending::done) {

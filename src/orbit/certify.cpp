@@ -58,11 +58,11 @@ public:
             if (first)
                 starts_[w] = coefficients_[0];
             note_lowest(w, evaluate_polynomial(coefficients_, std::abs(length)));
-            const bool on_surface_here = first && std::abs(coefficients_[0]) <= on_surface * size;
+            const bool on_surface_here = first && std::abs(coefficients_[0]) <= on_surface * sizes_[w];
             find_extrema(w, time, length, on_surface_here ? size : 0);
             if (std::isinf(falls_[w])) {
                 Root root;
-                const bool zero = std::abs(coefficients_[0]) <= on_surface * size;
+                const bool zero = std::abs(coefficients_[0]) <= on_surface * sizes_[w];
                 if (roots_->first_falling(coefficients_, std::abs(length),
                                           first && zero ? RootStart::deflate : RootStart::as_is, root))
                     falls_[w] = time + sign * root.at;
@@ -117,6 +117,10 @@ public:
         return transition_of(equations_->model(), segment) && mode_->transitions[w] == segment.index;
     }
     bool is_identity(std::size_t w) const { return identity_[w]; }
+    /// Sizes of the functions along the arc. A flight of a chatter sequence has those of the flights before it: its own
+    /// height may be as small as the accuracy of the orbit.
+    const std::vector<double>& sizes() const { return sizes_; }
+    void set_sizes(const std::vector<double>& sizes) { sizes_ = sizes; }
 
 private:
     struct Extremum {
@@ -310,12 +314,16 @@ private:
         const OrbitLayout& layout = equations_->layout();
         const Segment& segment = equations_->signature()[s];
         double begin = 0;
+        std::vector<double> sizes;
         for (std::size_t k = layout.first_piece(s); k < layout.last_piece(s); ++k) {
             const double duration = at_->unknowns[index(layout.duration_of(k))];
             const OrbitEvaluation::Piece& piece = at_->pieces[k];
             ArcWatcher watcher(*equations_, s, roots_,
                                is_held(HeldLimit::Kind::touch, s) ? std::optional(held_->event) : std::nullopt, begin);
+            if (!sizes.empty())
+                watcher.set_sizes(sizes);
             watcher.scan(piece.watched, 0);
+            sizes = watcher.sizes();
             judge_arc(s, watcher, piece, duration, false);
             const double rate = piece.condition.head(index(states_)).dot(piece.field);
             if (rate > least_rate * equations_->typical_rate_of_piece(*at_, k))

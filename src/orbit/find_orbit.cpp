@@ -309,8 +309,14 @@ std::optional<OrbitSolution> find_orbit(const System& system, const AttractorOpt
     };
     if (result.label != Label::periodic && !returns)
         throw no_orbit();
-    FollowedMotion motion = follow_motion(factory->simulation(), model.parameter_values(), result.state, result.mode,
-                                          2.6 * result.duration, Accumulations::segments);
+    const auto followed = [&](double periods) {
+        return follow_motion(factory->simulation(), model.parameter_values(), result.state, result.mode,
+                             periods * result.duration, Accumulations::segments);
+    };
+    FollowedMotion motion = followed(2.6);
+    // Contacts that have not accumulated at the end of the time would be taken for others.
+    if (std::ranges::any_of(motion.segments, [](const Segment& one) { return one.end == SegmentEnd::chatter; }))
+        motion = followed(3.6);
     if (!motion.problem.empty())
         throw InputError("the orbit has no signature: " + motion.problem,
                          "choose parameters at which contacts do not accumulate in this way");

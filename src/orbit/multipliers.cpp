@@ -29,7 +29,9 @@ Eigen::MatrixXd with_saltation(const OrbitEquations& equations, const OrbitEvalu
     if (layout.has_end(k) && !layout.accumulates(k)) { // the time of accumulation is part of the flow already
         const Eigen::RowVectorXd gradient = piece.condition.head(n).transpose();
         const double rate = gradient.dot(piece.field);
-        if (!(std::abs(rate) > least_rate * equations.typical_rate_of_piece(at, k)))
+        // Contacts that accumulate are slow by nature.
+        const double least = layout.is_contact(k) ? least_rate * least_rate : least_rate;
+        if (!(std::abs(rate) > least * equations.typical_rate_of_piece(at, k)))
             return {};
         flow -= piece.field * (gradient * flow) / rate;
     }
