@@ -26,10 +26,11 @@ std::unique_ptr<OrbitCondition> held(OrbitQuantity quantity) {
     return std::make_unique<OrbitQuantity>(std::move(quantity));
 }
 
-/// Returns the event that ends a segment; 0 for sections, where it is unused.
+/// Returns the event that ends a segment, or whose contacts accumulate there; 0 for sections, where it is unused.
 std::size_t own_event(const TestedPoint& point, std::size_t segment) {
     const Segment& one = point.equations.signature()[segment];
-    return one.end == SegmentEnd::event ? point.equations.model().transitions[one.index].event : 0;
+    const Transition* const transition = transition_of(point.equations.model(), one);
+    return transition ? transition->event : 0;
 }
 
 /// True when a curve keeps the duration of a segment at zero; then no other events are tested in it.
