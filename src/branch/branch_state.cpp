@@ -93,7 +93,7 @@ bool BranchState::hold_kept(const Orbit& orbit) {
     if (keeps_branch_point()) // BranchPointProblem contains the condition
         return true;
     std::unique_ptr<OrbitCondition> condition;
-    if (problem_->evaluate(problem_->unknowns_of(orbit)))
+    if (rule_of(kept.type).condition && problem_->evaluate(problem_->unknowns_of(orbit)))
         condition = rule_of(kept.type).condition(problem_->equations(), problem_->evaluation(), kept);
     held_.resize(held_monitors());
     if (!condition)

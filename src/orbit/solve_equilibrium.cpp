@@ -131,6 +131,19 @@ double scale_by_effect(std::size_t i, const Eigen::MatrixXd& field, const Eigen:
     return scale;
 }
 
+/// Returns the linearised field beside a state: at the state itself, such as a fold, an effect of one state on another
+/// may vanish that tells their scales.
+Eigen::MatrixXd typical_field(const EquilibriumEquations& equations, std::span<const double> state,
+                              std::span<const double> parameters) {
+    constexpr double aside = 0.06;
+    std::vector<double> beside(state.begin(), state.end());
+    for (const std::size_t i : equations.active())
+        beside[i] *= 1 + aside * std::cos(static_cast<double>(i + 1));
+    const Eigen::MatrixXd field = equations.jacobian(beside, parameters).leftCols(equations.size());
+    return field.allFinite() ? field
+                             : Eigen::MatrixXd(equations.jacobian(state, parameters).leftCols(equations.size()));
+}
+
 /// Completes the scales of states that have none, such as the velocity of a body at rest: each moves a state with a
 /// scale by that scale within the time of the fastest eigenvalue, or is moved so. @param known whether a state has a
 /// scale
@@ -181,7 +194,7 @@ Eigen::VectorXd scales_of_equilibrium(const EquilibriumEquations& equations, std
         scales[index(k)] = known[k] ? size : 1;
     }
     if (!known.empty())
-        complete_scales(equations.jacobian(state, parameters).leftCols(equations.size()), scales, known);
+        complete_scales(typical_field(equations, state, parameters), scales, known);
     return scales;
 }
 
@@ -203,6 +216,12 @@ std::vector<std::complex<double>> eigenvalues_at(const EquilibriumEquations& equ
     std::vector<std::complex<double>> sorted;
     if (found)
         sorted.assign(found->begin(), found->end());
+    for (const double added : equations.added_eigenvalues()) {
+        const auto distance = [added](std::complex<double> one) { return std::abs(one - added); };
+        const auto nearest = std::ranges::min_element(sorted, {}, distance);
+        if (nearest != sorted.end())
+            sorted.erase(nearest);
+    }
     std::ranges::stable_sort(sorted, [](const auto& a, const auto& b) {
         return a.real() != b.real() ? a.real() > b.real() : a.imag() > b.imag();
     });
