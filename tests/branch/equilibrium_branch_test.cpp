@@ -2,6 +2,8 @@
 
 #include "follow.hpp"
 
+#include "graze/branch/curve_start.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -93,9 +93,9 @@ TEST(PublishedEquilibria, StommelsVesselsHaveANodeASaddleAndASpiral) {
 
 // E. M. Izhikevich, Dynamical Systems in Neuroscience, 2007, section 8.2: a regular spiking neuron fires above 51.5 pA.
 TEST(PublishedEquilibria, RegularSpikingNeuronHasItsOnset) {
-    const Model model = OneMode{.parameters = "I = 0\nC = 100\nk = 0.7\nr = -60\nt = -40\na = 0.03\nb = -2",
+    const Model model = OneMode{.parameters = "I = 0\nC = 100\nk = 0.7\nvr = -60\nvt = -40\na = 0.03\nb = -2",
                                 .states = "v = -60\nu = 0",
-                                .rates = "v = '(k*(v - r)*(v - t) - u + I)/C', u = 'a*(b*(v - r) - u)'"}
+                                .rates = "v = '(k*(v - vr)*(v - vt) - u + I)/C', u = 'a*(b*(v - vr) - u)'"}
                             .model();
     const Branch branch = branch_of(model, "I", -100, 100);
     const auto folds = of_type(branch, PointType::fold);
