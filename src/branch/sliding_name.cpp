@@ -5,6 +5,7 @@
 #include "graze/trajectory/trajectory.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -28,8 +29,10 @@ const Alternative* way_into_sliding(const Model& model, std::size_t mode, std::s
     return found == transition->next.end() ? nullptr : &*found;
 }
 
-/// Returns the state of an orbit within a segment.
+/// Returns the state of an orbit within a segment; a vanishing one may have a negative duration.
 std::vector<double> state_within(const System& system, const Orbit& orbit, std::size_t segment, double time) {
+    if (!(time > 0))
+        return orbit.starts[segment];
     const Simulation simulation(system.without_events());
     Trajectory trajectory(simulation, orbit.parameters);
     trajectory.start(orbit.starts[segment], orbit.signature[segment].mode, 0, time);
@@ -76,28 +79,33 @@ std::string name_of_edge(const System& system, const SpecialPoint& special) {
                                                                                            : "switching-sliding";
 }
 
-/// A sliding segment of no duration: the orbit then touches the surface, or crosses it, without sliding.
+/// A sliding segment of no duration: the orbit then touches the surface, or crosses it, without sliding. An excursion
+/// of no duration to the other side: the orbit then slides at once.
 std::string name_of_vanishing(const System& system, const SpecialPoint& special) {
     const auto& signature = special.solution.orbit.signature;
-    const std::size_t count = signature.size(), segment = special.segment;
-    if (count < 2 || !is_of_slide(system.model(), signature[segment].mode))
-        return "";
-    const std::size_t before = signature[(segment + count - 1) % count].mode,
-                      after = signature[(segment + 1) % count].mode;
-    return before == after ? "grazing-sliding" : "crossing-sliding";
+    const std::size_t count = signature.size(), mode = signature[special.segment].mode,
+                      before = signature[(special.segment + count - 1) % count].mode,
+                      after = signature[(special.segment + 1) % count].mode;
+    if (is_of_slide(system.model(), mode))
+        return before == after ? "grazing-sliding" : "crossing-sliding";
+    const bool slides_after = is_of_slide(system.model(), after) && !is_of_slide(system.model(), before);
+    return slides_after && before != mode ? "switching-sliding" : "";
 }
 
 } // namespace
 
 std::string sliding_name(const System& system, const SpecialPoint& special) {
+    constexpr double almost_nothing = 1e-6; // share of the period: the touch of a vanishing arc is a consequence
     const Orbit& orbit = special.solution.orbit;
+    const bool vanishes = std::abs(orbit.durations[special.segment]) < almost_nothing * orbit.period();
     // What follows the last segment of a half orbit is an image of its first.
     const bool at_image = orbit.symmetry && (special.segment == 0 || special.segment + 1 == orbit.segments());
-    if (system.model().slides.empty() || (at_image && special.type != PointType::grazing))
+    const bool alone = special.type == PointType::grazing && !vanishes;
+    if (system.model().slides.empty() || (at_image && !alone))
         return "";
     switch (special.type) {
     case PointType::grazing:
-        return name_of_touch(system, special);
+        return vanishes ? name_of_vanishing(system, special) : name_of_touch(system, special);
     case PointType::guard:
         return name_of_edge(system, special);
     case PointType::vanishing:

@@ -86,6 +86,55 @@ TEST(PublishedBranches, MicroactuatorGainsContactAfterContactAtAnotherFrequency)
                     2e-13);
 }
 
+/// The same from the equations of frame and impactor, the impacts and a law of friction: its modes are derived.
+TEST(PublishedBranches, MicroactuatorOfEquationsAndALawGainsContactAfterContact) {
+    const std::string shipped = write_model(Microactuator(0.9189).model);
+    Model model = model_from(shipped.substr(0, shipped.find("[definitions]")) + R"toml(
+[definitions]
+F = "alpha*V^2*sin(x5)^2/(d - x3)^2 - c*x4 - k*x3"
+[modes.free]
+watch = ["front", "back"]
+rates = { x1 = "x2", x2 = "-(F + rub)/m1", x3 = "x4", x4 = "F/m2 + (F + rub)/m1", x5 = "omega" }
+[friction.rub]
+velocity = "x2"
+normal = "N"
+coefficient = "mu_d"
+static = "mu_s"
+[events]
+front = "delta - x3"
+back = "delta + x3"
+[jumps.impact]
+x2 = "x2 + m2*(1 + e)/(m1 + m2)*x4"
+x4 = "-e*x4"
+[sections.longest]
+function = "x4"
+direction = "falling"
+[[transitions]]
+mode = "free"
+event = "front"
+jump = "impact"
+next = "free"
+[[transitions]]
+mode = "free"
+event = "back"
+jump = "impact"
+next = "free"
+)toml");
+    ASSERT_EQ(model.modes.size(), 3U);
+    const BranchSettings settings = in_parameter(model, "V", 0, 3);
+    Branch branch = follow_branch(System(model), settled(model, "longest", 4000).orbit, settings);
+    EXPECT_EQ(names(branch), "PD PD SN GR");
+    for (const double grazing : {0.5876212422746997, 0.7304755333366196, 0.8095127614194632}) {
+        ASSERT_FALSE(branch.special.empty());
+        EXPECT_NEAR(branch.special.back().parameter, grazing, 1e-12);
+        const auto starts = branches_at(System(model), branch.special.back(), settings);
+        ASSERT_EQ(starts.size(), 1U);
+        branch = follow(model, starts[0], settings);
+    }
+    EXPECT_EQ(to_string(model, branch.points.back().solution.orbit.signature),
+              "(free-forward:stops free-stick:front)^3");
+}
+
 TEST(PublishedBranches, MicroactuatorWithOneContactHasItsFlip) {
     const Microactuator one(0.9189);
     const Branch before = one.without_contact();

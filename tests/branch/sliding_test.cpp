@@ -4,6 +4,8 @@
 #include "cycle_error.hpp"
 #include "follow.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <iostream>
 #include <map>
@@ -173,19 +175,16 @@ mode = "below"
     EXPECT_EQ(points[0].solution.orbit.segments(), points[1].solution.orbit.segments());
 }
 
-/// x' = -x + A cos(theta) - sign(x): the symmetric orbit crosses x = 0 where the other side just ceases to push back,
-/// cos(theta) = -1/A, if sqrt(A^2 - 1) = 1 + 2 tanh(pi/2).
-TEST(Sliding, CrossingSlidingHasItsNameAndItsClosedForm) {
-    const Model model = model_from(R"toml(name = "first order"
-[parameters]
-A = 3.6
+/// x' = -k x + A cos(theta) + b below x = 0, and -a instead of b above.
+Model first_order(const std::string& parameters, const std::string& mode) {
+    return model_from("name = \"first order\"\n[parameters]\n" + parameters + R"toml(
 [states]
-x = 1
+x = 0
 theta = { initial = 0, period = "2*pi" }
 [modes.low]
-rates = { x = "-x + A*cos(theta) + 1", theta = 1 }
+rates = { x = "-k*x + A*cos(theta) + b", theta = 1 }
 [modes.high]
-rates = { x = "-x + A*cos(theta) - 1", theta = 1 }
+rates = { x = "-k*x + A*cos(theta) - a", theta = 1 }
 [events]
 zero = "x"
 [slides.still]
@@ -194,19 +193,54 @@ between = ["low", "high"]
 [sections.phase0]
 state = "theta"
 value = 0
-[initial]
-mode = "high"
-)toml");
-    const BranchSettings settings = in_parameter(model, "A", 2.5, 3.6, -1);
-    const Branch branch = follow_branch(System(model), settled(model, "phase0").orbit, settings);
-    std::size_t found = 0;
-    for (const SpecialPoint& point : branch.special) {
-        if (point.detail.find("crossing-sliding") == std::string::npos)
-            continue;
-        ++found;
-        EXPECT_NEAR(point.parameter, std::hypot(1, 1 + 2 * std::tanh(std::numbers::pi / 2)), 1e-9) << point.detail;
+)toml" + "[initial]\nmode = \"" +
+                      mode + "\"\n");
+}
+
+/// Returns the values of the parameter at the points of this name.
+std::vector<double> named(const Model& model, const std::string& name, const BranchSettings& settings) {
+    std::vector<double> found;
+    for (const SpecialPoint& point : follow_branch(System(model), settled(model, "phase0").orbit, settings).special)
+        if (point.detail.find(name) != std::string::npos)
+            found.push_back(point.parameter);
+    return found;
+}
+
+/// With a = b = k = 1 the symmetric orbit crosses x = 0 where the other side just ceases to push back, cos(theta) =
+/// -1/A, if sqrt(A^2 - 1) = 1 + 2 tanh(pi/2).
+TEST(Sliding, CrossingSlidingHasItsNameAndItsClosedForm) {
+    const Model model = first_order("A = 3.6\nk = 1\na = 1\nb = 1\n", "high");
+    const auto found = named(model, "crossing-sliding", in_parameter(model, "A", 2.5, 3.6, -1));
+    ASSERT_FALSE(found.empty());
+    for (const double amplitude : found)
+        EXPECT_NEAR(amplitude, std::hypot(1, 1 + 2 * std::tanh(std::numbers::pi / 2)), 1e-9);
+}
+
+/// Where A = a an orbit that rests on the surface comes to the edge of where it slides.
+TEST(Sliding, AddingSlidingHasItsNameAndItsClosedForm) {
+    const Model model = first_order("A = 0.7\nk = 1\na = 1\nb = 1.2\n", "still");
+    const auto found = named(model, "adding-sliding", in_parameter(model, "A", 0.5, 1.1, 1));
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_NEAR(found[0], 1, 1e-9);
+}
+
+/// With k = 0 and A = 1 the orbit leaves the surface at cos(theta) = a and returns where sin(theta) - a theta is as
+/// before, at an angle above pi: it meets the edge of where it slides if b = -cos of that angle.
+TEST(Sliding, SwitchingSlidingHasItsNameAndItsClosedForm) {
+    const double a = 0.1, leaves = -std::acos(a);
+    double met = 4.5;
+    for (int i = 0; i < 50; ++i)
+        met -= (std::sin(met) - std::sin(leaves) - a * (met - leaves)) / (std::cos(met) - a);
+    const double edge = -std::cos(met);
+    ASSERT_GT(met, std::numbers::pi);
+    for (const double start : {edge + 0.1, edge - 0.1}) {
+        const Model model = first_order(fmt::format("A = 1\nk = 0\na = 0.1\nb = {}\n", start), "high");
+        const auto found =
+            named(model, "switching-sliding", in_parameter(model, "b", edge - 0.2, edge + 0.2, start > edge ? -1 : 1));
+        ASSERT_FALSE(found.empty()) << start;
+        for (const double b : found)
+            EXPECT_NEAR(b, edge, 1e-8);
     }
-    EXPECT_GE(found, 1U);
 }
 
 /// The sliding orbit exists before the touch, and neither exists beyond it.

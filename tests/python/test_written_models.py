@@ -294,6 +294,24 @@ def test_guards_are_comparisons():
         {"when": "v < 3", "mode": "end"}, {"mode": "a"}]
 
 
+def test_a_slide_and_a_friction_make_their_modes():
+    x, v = graze.states(x=1, v=1)
+    relay = graze.Model("relay", modes={"pull": graze.Mode({x: v, v: 1}), "push": graze.Mode({x: v, v: -1})},
+                        events={"line": v + x/2}, initial_mode="push",
+                        slides={"along": graze.Slide("line", ["pull", "push"], text="on the line")})
+    assert relay.modes == ("pull", "push", "along")
+    assert graze.Model(text=str(relay)) == relay and tomllib.loads(str(relay))["slides"]["along"]["between"] == ["pull", "push"]
+    motion = graze.simulate(relay, time=30)
+    met = math.sqrt(7) - 1
+    assert abs(motion.end_state["x"] / ((1 + met - met**2/2)*math.exp(-(30 - met)/2)) - 1) < 1e-9
+    rub, mu = graze.symbols("rub"), graze.Parameter("mu", 0.3)
+    block = graze.Model("block", parameters=[mu], states={x: 0, v: 2}, rates={x: v, v: -rub/2},
+                        friction={"rub": graze.Friction(v, 4, mu, static="2*mu")})
+    assert block.modes == ("motion-backward", "motion-stick", "motion-forward") and block.initial_mode == "motion-forward"
+    assert graze.Model(text=str(block)) == block
+    assert abs(graze.simulate(block, time=9).end_state["x"] - 2**2/(2*0.6)) < 1e-12
+
+
 def test_the_texts_of_models_are_kept():
     said = 'two lines\n"quoted" \\ and é'
     model = ball(text=said, source="a book", time_unit="ms")
@@ -306,7 +324,8 @@ def test_parts_are_copied_and_pickled():
     parts = [graze.State("q", x + v, unit="m", text="t", period=1, drifting=False), graze.Parameter("k", 2, unit="N/m"),
              graze.Definition("d", x*v, text="d"), graze.Mode({x: v}, watch=["a"]), graze.Event(x, kind="section"),
              graze.Jump({v: -v}), graze.Transition("a", next=[(x > v, "b")]), graze.Section(state=x, value=0),
-             graze.Symmetry({x: -x}), graze.Quantity(x*v, unit="m"), x > v]
+             graze.Symmetry({x: -x}), graze.Quantity(x*v, unit="m"), graze.Slide("a", ["m", "n"], watch=[]),
+             graze.Friction(v, 1, 0.3, static=0.4), x > v]
     for part in parts:
         for again in (pickle.loads(pickle.dumps(part)), copy.copy(part), copy.deepcopy(part)):
             assert type(again) is type(part)
@@ -442,6 +461,16 @@ WRONG = {
     "watch beside modes": (lambda: switched(watch=["contact"]), "watch without rates"),
     "a mode named end": (lambda: switched(modes={"end": {x: v, v: -g}}, transitions=None), "a mode cannot be named 'end'"),
     "a mode with a wrong field": (lambda: switched(modes={"a": {"rates": {}, "wach": []}}), "did you mean 'watch'?"),
+    "a slide of one mode": (lambda: switched(slides={"s": graze.Slide("contact", ["rest"])}),
+                            "slides['s'].between: slides.s.between has 1 modes; name two"),
+    "a slide without modes": (lambda: switched(slides={"s": {"surface": "contact"}}), "a slide needs 'between'"),
+    "a slide of a wrong convention": (lambda: switched(slides={"s": graze.Slide("contact", ["rest", "flight"],
+                                                                                convention="utkn")}),
+                                      "slides['s'].convention: slides.s.convention cannot be 'utkn'"),
+    "a friction without use": (lambda: ball(friction={"rub": graze.Friction(v, 1, 0.3)}),
+                               "friction['rub']: no mode has the friction 'rub' in its rates"),
+    "a friction with a wrong field": (lambda: ball(friction={"rub": {"velocity": v, "normal": 1, "coeff": 2}}),
+                                      "a friction has no 'coeff'"),
     "an unknown initial mode": (lambda: switched(initial_mode="flyght"), "initial_mode: there is no mode 'flyght'"),
     "a number as initial mode": (lambda: switched(initial_mode=3), "initial_mode: 3 is no name"),
     "a section of both kinds": (lambda: ball(sections={"s": graze.Section(x, state=x, value=0)}), "either a function or a state"),
