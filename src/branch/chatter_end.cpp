@@ -3,6 +3,8 @@
 #include "base/special_numbers.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/branch/chatter_limit.hpp"
+#include "orbit/accumulation.hpp"
+#include "orbit/newton.hpp"
 
 #include <fmt/format.h>
 
@@ -101,7 +103,7 @@ std::optional<SpecialPoint> ChatterEnd::onset(BranchState& state, std::size_t se
     const ChatterLimit limit = chatter_limit_near(state.system(), begun_with(orbit, rest), event,
                                                   state.settings().parameter, state.settings().orbit.tolerance);
     if (!limit.direct || !is_ahead(limit.direct->first, *before))
-        return std::nullopt;
+        return extrapolated_onset(state, segment, *before);
     SpecialPoint point = special_of_type(PointType::chatter, last_);
     const auto [value, error] = *limit.direct;
     point.parameter = value;
@@ -114,6 +116,39 @@ std::optional<SpecialPoint> ChatterEnd::onset(BranchState& state, std::size_t se
     point.solution.orbit = limit.orbit;
     point.solution.outcome = OrbitOutcome::converged;
     point.solution.residual = limit.gap;
+    point.tangent = {};
+    return point;
+}
+
+/// The onset from the orbits before it, where its own motion has too many contacts to be followed. In the self-similar
+/// sequence of contacts at the onset times before the end shrink by a factor with each contact, and distances of the
+/// parameter by another one: they are a power of the rest's duration, up to a periodic function of its logarithm.
+std::optional<SpecialPoint> ChatterEnd::extrapolated_onset(BranchState& state, std::size_t segment,
+                                                           const Seen& before) const {
+    constexpr double shortest = 1e-3; // share of the period
+    const Orbit& orbit = last_.solution.orbit;
+    const std::size_t rest = (segment + 1) % orbit.segments();
+    const double longer_by = before.durations[rest] / orbit.durations[rest];
+    const Simulation simulation(state.system(), {}, {}, integration(state.settings().orbit.tolerance));
+    const Accumulation accumulation(simulation.system(), orbit.signature[segment].index, {});
+    const ChatterContacts contacts =
+        follow_chatter(simulation, accumulation, orbit.parameters, orbit.starts[segment], orbit.durations[segment]);
+    Accumulation::Remainder left;
+    if (!(orbit.durations[rest] < shortest * orbit.return_time()) || !contacts.problem.empty() ||
+        !accumulation.evaluate(contacts.starts.back(), orbit.parameters, left) || !(left.ratio > 0 && left.ratio < 1))
+        return std::nullopt;
+    const SelfSimilarContacts similar = self_similar_contacts(left.ratio);
+    const double power = std::log(similar.ratio) / std::log(similar.times);
+    const double ahead = (last_.parameter - before.parameter) / (std::pow(longer_by, power) - 1);
+    SpecialPoint point = special_of_type(PointType::chatter, last_);
+    point.located = false; // it is extrapolated
+    point.parameter = last_.parameter + ahead;
+    point.bracket = std::minmax(last_.parameter, last_.parameter + 2 * ahead);
+    point.segment = segment;
+    point.event = accumulation.event();
+    point.detail = fmt::format("+- {:.1e}, from the orbits before it; e = {:.6g}, ratio {:.6g}", std::abs(ahead),
+                               left.ratio, similar.ratio);
+    point.solution.orbit = begun_with(orbit, rest);
     point.tangent = {};
     return point;
 }

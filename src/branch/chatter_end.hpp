@@ -28,6 +28,7 @@ private:
         std::vector<double> durations;
     };
     std::optional<SpecialPoint> onset(BranchState& state, std::size_t segment) const;
+    std::optional<SpecialPoint> extrapolated_onset(BranchState& state, std::size_t segment, const Seen& before) const;
     std::optional<SpecialPoint> vanishing(BranchState& state, std::size_t segment) const;
     const Seen* longer(std::size_t segment, double factor) const;
     bool is_ahead(double parameter, const Seen& before) const;

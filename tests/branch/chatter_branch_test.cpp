@@ -116,6 +116,24 @@ TEST(ChatterBranch, EndsAtTheOnsetOfChatter) {
     }
 }
 
+TEST(ChatterBranch, EndsAtAnOnsetThatIsTooFarToBeFollowed) {
+    // With a restitution of 0.77 the motion of the onset has too many contacts: the end is extrapolated.
+    Model model = oscillator(0.5);
+    const OrbitSolution start = settled(model, "phase0");
+    const Branch branch = follow_branch(System(model), start.orbit, in_parameter(model, "e", 0.05, 0.95));
+    EXPECT_EQ(branch.outcome, BranchOutcome::unphysical);
+    ASSERT_FALSE(branch.special.empty());
+    const SpecialPoint& end = branch.special.back();
+    ASSERT_EQ(end.type, PointType::chatter) << end.detail;
+    EXPECT_FALSE(end.located);
+    for (const double side : {-1e-5, 1e-5}) {
+        model.set_parameter("e", end.parameter + side);
+        const double period = 4 * std::numbers::pi, release = std::acos(-0.5);
+        const Times times = simulated(model, {-0.5, 0, release - 1e-3}, 1.001 * period);
+        EXPECT_EQ(times.accumulation > 0 && times.accumulation < period + 2e-3, side < 0) << side;
+    }
+}
+
 TEST(ChatterBranch, EndsWhereTheBallNoLongerLeavesTheTable) {
     // The table's greatest acceleration is a omega^2.
     const double least = 9.81 / (omega_of_table * omega_of_table);
