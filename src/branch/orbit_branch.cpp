@@ -201,7 +201,9 @@ private:
         found = {*point};
         found[0].step = ++here.point.step;
         finish_at(0, BranchOutcome::unphysical,
-                  point->type == PointType::chatter ? "contacts no longer accumulate" : "the motion stays at rest");
+                  point->type == PointType::chatter     ? "contacts no longer accumulate"
+                  : point->type == PointType::vanishing ? "the motion stays at rest"
+                                                        : "a contact has no speed");
         return true;
     }
     /// Ends the branch in the equilibrium to which its orbits shrink.

@@ -6,8 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace graze::chatter_branch_test {
 
@@ -146,8 +148,40 @@ TEST(ChatterBranch, EndsWhereTheBallNoLongerLeavesTheTable) {
     EXPECT_EQ(end.type, PointType::vanishing);
     EXPECT_FALSE(end.located); // it is extrapolated
     EXPECT_NEAR(end.parameter, least, 1e-8);
+    EXPECT_EQ(value_of(model, end.solution, "a"), end.parameter);
     EXPECT_GE(least, end.bracket.first);
     EXPECT_LE(least, end.bracket.second);
+}
+
+TEST(ChatterBranch, EndsWhereAFlightTouchesTheTable) {
+    const Model model = shipped_with("bouncing-ball", {{"a", 0.03}, {"e", 0.2}});
+    const OrbitSolution start = settled(model, "phase0");
+    const Branch branch = follow_branch(System(model), start.orbit, in_parameter(model, "a", 0.02, 0.04, -1));
+    EXPECT_EQ(branch.outcome, BranchOutcome::unphysical);
+    ASSERT_EQ(branch.special.size(), 1U);
+    const SpecialPoint& end = branch.special[0];
+    ASSERT_EQ(end.type, PointType::grazing);
+    EXPECT_TRUE(end.located);
+    // The simulated motion touches the table there, at that time.
+    double least = 1;
+    for (const OrbitMinimum& one : end.solution.certificate.minima)
+        if (one.segment == end.segment && one.time == end.time)
+            least = one.value;
+    EXPECT_NEAR(least, 0, 1e-9);
+    for (const double side : {-1e-10, 1e-10}) {
+        Model there = model;
+        there.set_parameter("a", end.parameter + side);
+        Experiment experiment(there);
+        const Orbit& orbit = end.solution.orbit;
+        const std::size_t rest = 1 - end.segment;
+        const double time = orbit.durations[rest] + end.time;
+        experiment.run_from(orbit.starts[rest], 1, 1.01 * time);
+        const auto& contacts = experiment.recorder.contacts();
+        const bool touches = std::ranges::any_of(contacts, [&](const Recorder::RecordedContact& one) {
+            return one.contact.kind == ContactKind::crossing && std::abs(one.contact.time - time) < 5e-3;
+        });
+        EXPECT_EQ(touches, side < 0) << side;
+    }
 }
 
 } // namespace graze::chatter_branch_test
