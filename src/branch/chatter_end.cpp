@@ -211,7 +211,9 @@ std::optional<SpecialPoint> ChatterEnd::lost_contact(BranchState& state, std::si
         if (!is_ahead(value, before))
             return std::nullopt;
         SpecialPoint point = extrapolated_to(PointType::grazing, value, state);
-        point.bracket = std::minmax(last_.parameter, 2 * value - last_.parameter);
+        // As far as the end would be if the parameter was linear in the speed.
+        const double farthest = 1 + there.speed / here.speed;
+        point.bracket = std::minmax(last_.parameter, last_.parameter + farthest * (value - last_.parameter));
         point.segment = segment;
         point.event = accumulation.event();
         point.time = here.time;

@@ -153,6 +153,25 @@ TEST(ChatterBranch, EndsWhereTheBallNoLongerLeavesTheTable) {
     EXPECT_LE(least, end.bracket.second);
 }
 
+TEST(ChatterBranch, EndsWhereTheFirstContactHasNoSpeed) {
+    // A flight from a lift-off at the phase p to the phase 3 pi - p, at the same height, where the table's acceleration
+    // is -g again. Whatever the restitution, the ball returns without speed where 2 a omega cos(p) is g times the time.
+    constexpr double exact = 0.0114388460446474;
+    for (const double e : {0.1, 0.3}) {
+        const Model model = shipped_with("bouncing-ball", {{"a", 0.012}, {"e", e}});
+        const OrbitSolution start = settled(model, "phase0");
+        const Branch branch = follow_branch(System(model), start.orbit, in_parameter(model, "a", 0.001, 0.05, -1));
+        EXPECT_EQ(branch.outcome, BranchOutcome::unphysical) << branch.detail;
+        ASSERT_FALSE(branch.special.empty());
+        const SpecialPoint& end = branch.special.back();
+        ASSERT_EQ(end.type, PointType::grazing) << end.detail;
+        EXPECT_FALSE(end.located);
+        EXPECT_NEAR(end.parameter, exact, 1e-8);
+        EXPECT_GE(exact, end.bracket.first) << e;
+        EXPECT_LE(exact, end.bracket.second) << e;
+    }
+}
+
 TEST(ChatterBranch, EndsWhereAFlightTouchesTheTable) {
     const Model model = shipped_with("bouncing-ball", {{"a", 0.03}, {"e", 0.2}});
     const OrbitSolution start = settled(model, "phase0");
