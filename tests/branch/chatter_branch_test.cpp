@@ -61,6 +61,12 @@ TEST(ChatterBranch, OfAKickedBallEndsWhereItsRestVanishes) {
     EXPECT_EQ(branch.special[0].type, PointType::vanishing);
     EXPECT_NEAR(branch.special[0].parameter, 2.5, 1e-9);
     EXPECT_EQ(branch.outcome, BranchOutcome::unphysical);
+    // The curve of such points in two parameters: 2V = g (1 - e).
+    const Branch curve = curve_of(model, branch.special[0], in_parameter(model, "V", 0.1, 4), "e", 0.1, 0.8, 1);
+    EXPECT_EQ(curve.outcome, BranchOutcome::bound) << curve.detail;
+    EXPECT_GT(curve.points.size(), 5U);
+    for (const BranchPoint& point : curve.points)
+        EXPECT_NEAR(point.parameter, 5 * (1 - value_of(model, point.solution, "e")), 1e-10);
 }
 
 TEST(ChatterBranch, HasTheTangentOfAComputationInFortyDigits) {
