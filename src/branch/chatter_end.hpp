@@ -9,9 +9,9 @@
 
 namespace graze {
 
-/// The ends of a branch of orbits with a complete chatter sequence that no step can pass, since there is no orbit
-/// beyond: where the rest after it vanishes together with the force that presses the motion on the surface (the onset
-/// of chatter), and where the sequence itself vanishes, since the motion no longer leaves the surface.
+/// The ends of a branch of orbits with a complete chatter sequence that no step can pass: where the rest after it
+/// vanishes together with the force that presses the motion on the surface (the onset of chatter), where the sequence
+/// itself vanishes, since the motion no longer leaves the surface, and where one of its contacts loses its speed.
 class ChatterEnd {
 public:
     /// Remembers an admissible point.
@@ -26,10 +26,14 @@ private:
     struct Seen {
         double parameter = 0;
         std::vector<double> durations;
+        Orbit orbit;
     };
     std::optional<SpecialPoint> onset(BranchState& state, std::size_t segment) const;
+    std::optional<SpecialPoint> extrapolated_onset(BranchState& state, std::size_t segment, const Seen& before) const;
     std::optional<SpecialPoint> vanishing(BranchState& state, std::size_t segment) const;
+    std::optional<SpecialPoint> lost_contact(BranchState& state, std::size_t segment) const;
     const Seen* longer(std::size_t segment, double factor) const;
+    SpecialPoint extrapolated_to(PointType type, double parameter, const BranchState& state) const;
     bool is_ahead(double parameter, const Seen& before) const;
 
     std::vector<Seen> seen_; ///< with one signature

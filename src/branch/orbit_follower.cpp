@@ -200,7 +200,9 @@ private:
         found_ = {*point};
         found_[0].step = ++here_.point.step;
         finish_at(0, BranchOutcome::unphysical,
-                  point->type == PointType::chatter ? "contacts no longer accumulate" : "the motion stays at rest");
+                  point->type == PointType::chatter     ? "contacts no longer accumulate"
+                  : point->type == PointType::vanishing ? "the motion stays at rest"
+                                                        : "a contact has no speed");
         return true;
     }
     /// Ends the branch in the equilibrium to which its orbits shrink.

@@ -6,8 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace graze::chatter_branch_test {
 
@@ -59,6 +61,12 @@ TEST(ChatterBranch, OfAKickedBallEndsWhereItsRestVanishes) {
     EXPECT_EQ(branch.special[0].type, PointType::vanishing);
     EXPECT_NEAR(branch.special[0].parameter, 2.5, 1e-9);
     EXPECT_EQ(branch.outcome, BranchOutcome::unphysical);
+    // The curve of such points in two parameters: 2V = g (1 - e).
+    const Branch curve = curve_of(model, branch.special[0], in_parameter(model, "V", 0.1, 4), "e", 0.1, 0.8, 1);
+    EXPECT_EQ(curve.outcome, BranchOutcome::bound) << curve.detail;
+    EXPECT_GT(curve.points.size(), 5U);
+    for (const BranchPoint& point : curve.points)
+        EXPECT_NEAR(point.parameter, 5 * (1 - value_of(model, point.solution, "e")), 1e-10);
 }
 
 TEST(ChatterBranch, HasTheTangentOfAComputationInFortyDigits) {
@@ -116,6 +124,24 @@ TEST(ChatterBranch, EndsAtTheOnsetOfChatter) {
     }
 }
 
+TEST(ChatterBranch, EndsAtAnOnsetThatIsTooFarToBeFollowed) {
+    // With a restitution of 0.77 the motion of the onset has too many contacts: the end is extrapolated.
+    Model model = oscillator(0.5);
+    const OrbitSolution start = settled(model, "phase0");
+    const Branch branch = follow_branch(System(model), start.orbit, in_parameter(model, "e", 0.05, 0.95));
+    EXPECT_EQ(branch.outcome, BranchOutcome::unphysical);
+    ASSERT_FALSE(branch.special.empty());
+    const SpecialPoint& end = branch.special.back();
+    ASSERT_EQ(end.type, PointType::chatter) << end.detail;
+    EXPECT_FALSE(end.located);
+    for (const double side : {-1e-5, 1e-5}) {
+        model.set_parameter("e", end.parameter + side);
+        const double period = 4 * std::numbers::pi, release = std::acos(-0.5);
+        const Times times = simulated(model, {-0.5, 0, release - 1e-3}, 1.001 * period);
+        EXPECT_EQ(times.accumulation > 0 && times.accumulation < period + 2e-3, side < 0) << side;
+    }
+}
+
 TEST(ChatterBranch, EndsWhereTheBallNoLongerLeavesTheTable) {
     // The table's greatest acceleration is a omega^2.
     const double least = 9.81 / (omega_of_table * omega_of_table);
@@ -128,8 +154,59 @@ TEST(ChatterBranch, EndsWhereTheBallNoLongerLeavesTheTable) {
     EXPECT_EQ(end.type, PointType::vanishing);
     EXPECT_FALSE(end.located); // it is extrapolated
     EXPECT_NEAR(end.parameter, least, 1e-8);
+    EXPECT_EQ(value_of(model, end.solution, "a"), end.parameter);
     EXPECT_GE(least, end.bracket.first);
     EXPECT_LE(least, end.bracket.second);
+}
+
+TEST(ChatterBranch, EndsWhereTheFirstContactHasNoSpeed) {
+    // A flight from a lift-off at the phase p to the phase 3 pi - p, at the same height, where the table's acceleration
+    // is -g again. Whatever the restitution, the ball returns without speed where 2 a omega cos(p) is g times the time.
+    constexpr double exact = 0.0114388460446474;
+    for (const double e : {0.1, 0.3}) {
+        const Model model = shipped_with("bouncing-ball", {{"a", 0.012}, {"e", e}});
+        const OrbitSolution start = settled(model, "phase0");
+        const Branch branch = follow_branch(System(model), start.orbit, in_parameter(model, "a", 0.001, 0.05, -1));
+        EXPECT_EQ(branch.outcome, BranchOutcome::unphysical) << branch.detail;
+        ASSERT_FALSE(branch.special.empty());
+        const SpecialPoint& end = branch.special.back();
+        ASSERT_EQ(end.type, PointType::grazing) << end.detail;
+        EXPECT_FALSE(end.located);
+        EXPECT_NEAR(end.parameter, exact, 1e-8);
+        EXPECT_GE(exact, end.bracket.first) << e;
+        EXPECT_LE(exact, end.bracket.second) << e;
+    }
+}
+
+TEST(ChatterBranch, EndsWhereAFlightTouchesTheTable) {
+    const Model model = shipped_with("bouncing-ball", {{"a", 0.03}, {"e", 0.2}});
+    const OrbitSolution start = settled(model, "phase0");
+    const Branch branch = follow_branch(System(model), start.orbit, in_parameter(model, "a", 0.02, 0.04, -1));
+    EXPECT_EQ(branch.outcome, BranchOutcome::unphysical);
+    ASSERT_EQ(branch.special.size(), 1U);
+    const SpecialPoint& end = branch.special[0];
+    ASSERT_EQ(end.type, PointType::grazing);
+    EXPECT_TRUE(end.located);
+    // The simulated motion touches the table there, at that time.
+    double least = 1;
+    for (const OrbitMinimum& one : end.solution.certificate.minima)
+        if (one.segment == end.segment && one.time == end.time)
+            least = one.value;
+    EXPECT_NEAR(least, 0, 1e-9);
+    for (const double side : {-1e-10, 1e-10}) {
+        Model there = model;
+        there.set_parameter("a", end.parameter + side);
+        Experiment experiment(there);
+        const Orbit& orbit = end.solution.orbit;
+        const std::size_t rest = 1 - end.segment;
+        const double time = orbit.durations[rest] + end.time;
+        experiment.run_from(orbit.starts[rest], 1, 1.01 * time);
+        const auto& contacts = experiment.recorder.contacts();
+        const bool touches = std::ranges::any_of(contacts, [&](const Recorder::RecordedContact& one) {
+            return one.contact.kind == ContactKind::crossing && std::abs(one.contact.time - time) < 5e-3;
+        });
+        EXPECT_EQ(touches, side < 0) << side;
+    }
 }
 
 } // namespace graze::chatter_branch_test
