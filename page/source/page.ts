@@ -17,7 +17,7 @@ import { splitter } from "./splitter.js";
 import { StudyView } from "./study_view.js";
 import { Tabs } from "./tabs.js";
 import { withoutRun } from "./study_text.js";
-import { Workspace } from "./workspace.js";
+import { standsAlone, Workspace } from "./workspace.js";
 
 /** Puts the parts of the page together, and connects them. */
 export class Page {
@@ -362,7 +362,7 @@ export class Page {
       if (!run?.points) continue;
       this.awaited.splice(this.awaited.indexOf(name), 1);
       this.grid.follow(name);
-      if (run.kind === "orbit") void this.selectOrbit(name);
+      if (standsAlone(run)) void this.selectOrbit(name);
     }
   }
 
