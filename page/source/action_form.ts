@@ -201,8 +201,7 @@ class ActionForm {
     const proposed = this.action.parameters ?? [];
     // Where a run goes along a parameter already, that one is proposed, with its bounds.
     const run = this.workspace.run(this.origin.run ?? ""),
-      own =
-        this.origin.number !== null && run && !standsAlone(run) && varied(run).some((name) => names.includes(name));
+      own = this.origin.number !== null && run && !standsAlone(run) && varied(run).some((name) => names.includes(name));
     const usual = (own || index > 0 ? undefined : this.usualParameter(names)) ?? proposed[index]?.name ?? names[index];
     const low = make("input", { type: "number", step: "any", required: true });
     const high = make("input", { type: "number", step: "any", required: true });

@@ -171,7 +171,9 @@ export class Page {
     if (this.grid.isEmpty && first && first.runs.some((name) => drawable.some((run) => run.name === name)))
       this.grid.open({ name: first.name });
     else if (this.grid.isEmpty && drawable.length > 0)
-      this.grid.open({ runs: [(drawable.find((run) => run.is_branch) ?? drawable[0]).name] });
+      this.grid.open({
+        runs: [(drawable.find((run) => run.is_followed) ?? drawable.find((run) => run.is_branch) ?? drawable[0]).name],
+      });
   }
 
   private async showModel(run: string | null): Promise<void> {

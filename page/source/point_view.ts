@@ -19,7 +19,7 @@ export class PointView {
   private readonly actions = make("div", { class: "actions" });
   private readonly motion = new MotionView();
   private readonly multiplierPlace = make("div", { class: "multipliers" });
-  private readonly eigenvaluePlace = make("div", { class: "multipliers" });
+  private readonly eigenvaluePlace = make("div", { class: "multipliers eigenvalues" });
   private readonly facts = make("div");
   private multipliers: Diagram | null = null;
   private asked: AbortController | null = null;
@@ -94,9 +94,10 @@ export class PointView {
     const run = this.workspace.run(point.run);
     // The points of a run that finds an orbit or equilibria are the ends of no branch.
     const isFound = standsAlone(run) && point.type === "EP";
-    const what = isAtRest(point) ? "equilibrium" : "orbit";
+    const what = isAtRest(point) ? "equilibrium" : "orbit",
+      foundWords = isAtRest(point) ? what : "periodic orbit";
     const name = isFound ? "" : point.name || point.label;
-    const typeWords = isFound ? (isAtRest(point) ? what : "periodic orbit") : point.type === "EP" ? "end of the branch" : point.type_words;
+    const typeWords = isFound ? foundWords : point.type === "EP" ? "end of the branch" : point.type_words;
     const type = [typeWords, detailInWords(point.detail)].filter((text) => text && text !== "regular").join(": ");
     const badges = make("p", { class: "badges" });
     if (point.kind === "orbit") {
@@ -110,7 +111,11 @@ export class PointView {
     }
     fill(
       this.heading,
-      make("h2", { tabindex: -1 }, `${point.run}: ${name || (isFound ? foundName(what, point, run) : `point ${point.number}`)}`),
+      make(
+        "h2",
+        { tabindex: -1 },
+        `${point.run}: ${name || (isFound ? foundName(what, point, run) : `point ${point.number}`)}`,
+      ),
       name ? make("p", {}, `point ${point.number}${type ? `: ${type}` : ""}`) : type ? make("p", {}, type) : null,
       badges,
       make("p", { class: "summary" }, this.summary(point)),
@@ -225,7 +230,7 @@ function isAtRest(point: Point): boolean {
 }
 
 /** What a run has found, by its number where it has found several. */
-function foundName(what: string, point: Point, run: Run | null): string {
+function foundName(what: string, point: Point, run: Run | undefined): string {
   return run && run.points > 1 ? `${what} ${point.number + 1} of ${run.points}` : `the ${what}`;
 }
 
