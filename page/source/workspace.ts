@@ -17,7 +17,7 @@ interface Happenings {
 
 /** Whether a run finds orbits or equilibria by themselves, which follow no parameter. */
 export function standsAlone(run: Run | null | undefined): boolean {
-  return run ? run.is_branch && !run.is_followed : false;
+  return run?.kind === "orbit" || run?.kind === "equilibrium";
 }
 
 /** What varies along a run. Orbits have all their parameters as coordinates, the ones that vary first. */
