@@ -5,7 +5,7 @@ import { recall, remember } from "./memory.js";
 import { shown, symbolOf } from "./numbers.js";
 import type { Workshop } from "./source.js";
 import { TableText } from "./table_text.js";
-import { varied, type Workspace } from "./workspace.js";
+import { standsAlone, varied, type Workspace } from "./workspace.js";
 
 export interface ActionActs {
   compute(text: string): Promise<StartedJob>; // a table [runs.NAME], which is added to the study
@@ -44,7 +44,7 @@ export function actionButtons(
   const place = make("div", { class: "action-place" });
   const row = make("div", { class: "row", role: "group", "aria-label": "Go on from here" });
   // A single orbit goes along no parameter, so that none is another one.
-  const isSingle = workspace.run(origin.run ?? "")?.kind === "orbit";
+  const isSingle = standsAlone(workspace.run(origin.run ?? ""));
   for (const action of (origin.actions ?? []).filter(({ name }) => name !== "another" || !isSingle))
     append(
       row,
@@ -201,8 +201,7 @@ class ActionForm {
     const proposed = this.action.parameters ?? [];
     // Where a run goes along a parameter already, that one is proposed, with its bounds.
     const run = this.workspace.run(this.origin.run ?? ""),
-      own =
-        this.origin.number !== null && run && run.kind !== "orbit" && varied(run).some((name) => names.includes(name));
+      own = this.origin.number !== null && run && !standsAlone(run) && varied(run).some((name) => names.includes(name));
     const usual = (own || index > 0 ? undefined : this.usualParameter(names)) ?? proposed[index]?.name ?? names[index];
     const low = make("input", { type: "number", step: "any", required: true });
     const high = make("input", { type: "number", step: "any", required: true });

@@ -181,6 +181,7 @@ export interface Point {
   values: NamedNumber[];
   multipliers: [Num, Num][];
   half_multipliers: [Num, Num][];
+  eigenvalues: [Num, Num][]; // of equilibria, per unit of time
   signature: string | null;
   tables: Table[];
   facts: [string, string | number][];
@@ -203,6 +204,7 @@ export interface Motion {
   complete: boolean;
   ending: string;
   detail?: string;
+  at_rest?: boolean; // of an equilibrium, which has one row
   limit?: string; // of the work for a simulation that it has reached
 }
 

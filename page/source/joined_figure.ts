@@ -1,13 +1,14 @@
 import type { Figure, FigureAnswer, PictureWish, Run } from "./contract.js";
 import { drawnOver } from "./merged_figure.js";
 import { Refusal } from "./source.js";
-import { varied, type Workspace } from "./workspace.js";
+import { standsAlone, varied, type Workspace } from "./workspace.js";
 
 /** Whether two runs can be drawn in the same axes: they vary the same. */
 export function haveSameAxes(one: Run, other: Run): boolean {
   const names = (run: Run) => varied(run).sort().join();
   // An orbit is drawn as a portrait, and so would be what stands beside it.
-  if (one.kind === "orbit" || other.kind === "orbit") return one.kind === other.kind && one.model === other.model;
+  if (standsAlone(one) || standsAlone(other))
+    return standsAlone(one) && standsAlone(other) && one.model === other.model;
   if (one.is_branch !== other.is_branch) return names(one) === names(other) && commonValues(one, other).length > 0;
   return names(one) === names(other) && (varied(one).length > 0 || one.kind === other.kind);
 }

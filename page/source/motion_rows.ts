@@ -40,6 +40,10 @@ function contactsOf(motion: Motion, x: number, y: number): Series {
   return { title: "contacts", style: "circles", colour: 1, x: at(x), y: at(y) };
 }
 
+function restOf(motion: Motion, x: number, y: number): Series {
+  return { title: "equilibrium", style: "symbols", symbol: 7, colour: 0, x: motion.values[x], y: motion.values[y] };
+}
+
 /** A panel of one column over another one, with the contacts marked. */
 export function motionPanel(motion: Motion, x: number, y: number): Panel {
   const axis = (column: number) => ({
@@ -57,7 +61,7 @@ export function motionPanel(motion: Motion, x: number, y: number): Panel {
     marks_title: "",
     notes: [],
     labels: [],
-    series: [lineOf(motion, x, y, 0), contactsOf(motion, x, y)],
+    series: motion.at_rest ? [restOf(motion, x, y)] : [lineOf(motion, x, y, 0), contactsOf(motion, x, y)],
   };
 }
 

@@ -71,8 +71,11 @@ export class MotionView {
     const ending = endingWords(motion);
     this.note.textContent = ending;
     this.note.hidden = ending === "";
-    const isEmpty = (motion.values[0]?.length ?? 0) < 2;
+    const atRest = motion.at_rest === true;
+    const isEmpty = (motion.values[0]?.length ?? 0) < (atRest ? 1 : 2);
     this.root.classList.toggle("empty", isEmpty);
+    for (const place of [this.player.root, this.historyChooser, this.historyPlace]) place.hidden = atRest;
+    if (atRest) this.player.pause();
     if (isEmpty) return this.player.pause(); // what is chosen stays for the next motion
     const before = this.motion;
     this.motion = motion;

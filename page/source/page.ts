@@ -17,7 +17,7 @@ import { splitter } from "./splitter.js";
 import { StudyView } from "./study_view.js";
 import { Tabs } from "./tabs.js";
 import { withoutRun } from "./study_text.js";
-import { Workspace } from "./workspace.js";
+import { standsAlone, Workspace } from "./workspace.js";
 
 /** Puts the parts of the page together, and connects them. */
 export class Page {
@@ -171,7 +171,9 @@ export class Page {
     if (this.grid.isEmpty && first && first.runs.some((name) => drawable.some((run) => run.name === name)))
       this.grid.open({ name: first.name });
     else if (this.grid.isEmpty && drawable.length > 0)
-      this.grid.open({ runs: [(drawable.find((run) => run.is_branch) ?? drawable[0]).name] });
+      this.grid.open({
+        runs: [(drawable.find((run) => run.is_followed) ?? drawable.find((run) => run.is_branch) ?? drawable[0]).name],
+      });
   }
 
   private async showModel(run: string | null): Promise<void> {
@@ -362,7 +364,7 @@ export class Page {
       if (!run?.points) continue;
       this.awaited.splice(this.awaited.indexOf(name), 1);
       this.grid.follow(name);
-      if (run.kind === "orbit") void this.selectOrbit(name);
+      if (standsAlone(run)) void this.selectOrbit(name);
     }
   }
 

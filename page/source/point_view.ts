@@ -1,5 +1,5 @@
 import { actionButtons, pointButtons, type ActionActs } from "./action_form.js";
-import type { Model, NamedNumber, Num, Point } from "./contract.js";
+import type { Model, NamedNumber, Num, Point, Run } from "./contract.js";
 import { dataTable, valueTable } from "./data_table.js";
 import { Diagram } from "./diagram.js";
 import { append, fill, make, messageOf, problem } from "./dom.js";
@@ -7,9 +7,9 @@ import { expressionsOf } from "./model_drawing.js";
 import { MotionView } from "./motion_view.js";
 import { multiplierPanel } from "./multiplier_panel.js";
 import { shown, symbolOf, withUnit } from "./numbers.js";
-import { varied, type Selection, type Workspace } from "./workspace.js";
+import { standsAlone, varied, type Selection, type Workspace } from "./workspace.js";
 
-const marginal = new Set(["SN", "PD", "NS", "BP", "SB"]);
+const marginal = new Set(["SN", "PD", "NS", "BP", "SB", "HB", "BT", "ZH", "HH", "GH"]);
 const delay = 60; // milliseconds: a key that is held down does not ask for every point on its way
 
 /** All that is known of the chosen point: its orbit, multipliers, certificate, values, and what can be done from it. */
@@ -19,6 +19,7 @@ export class PointView {
   private readonly actions = make("div", { class: "actions" });
   private readonly motion = new MotionView();
   private readonly multiplierPlace = make("div", { class: "multipliers" });
+  private readonly eigenvaluePlace = make("div", { class: "multipliers eigenvalues" });
   private readonly facts = make("div");
   private multipliers: Diagram | null = null;
   private asked: AbortController | null = null;
@@ -31,7 +32,8 @@ export class PointView {
     private readonly workspace: Workspace,
     private readonly acts: ActionActs,
   ) {
-    append(this.root, this.heading, this.actions, this.motion.root, this.multiplierPlace, this.facts);
+    append(this.root, this.heading, this.actions, this.motion.root);
+    append(this.root, this.multiplierPlace, this.eigenvaluePlace, this.facts);
     this.motion.clear();
     fill(this.heading, make("p", { class: "note" }, "Click a point of a diagram to see its orbit here."));
     workspace.on("selection", (selection) => {
@@ -90,10 +92,12 @@ export class PointView {
 
   private showPoint(point: Point, note: string, model: Model | null): void {
     const run = this.workspace.run(point.run);
-    // The only point of a run that finds an orbit is the end of no branch.
-    const isFound = run?.kind === "orbit" && point.type === "EP";
+    // The points of a run that finds an orbit or equilibria are the ends of no branch.
+    const isFound = standsAlone(run) && point.type === "EP";
+    const what = isAtRest(point) ? "equilibrium" : "orbit",
+      foundWords = isAtRest(point) ? what : "periodic orbit";
     const name = isFound ? "" : point.name || point.label;
-    const typeWords = isFound ? "periodic orbit" : point.type === "EP" ? "end of the branch" : point.type_words;
+    const typeWords = isFound ? foundWords : point.type === "EP" ? "end of the branch" : point.type_words;
     const type = [typeWords, detailInWords(point.detail)].filter((text) => text && text !== "regular").join(": ");
     const badges = make("p", { class: "badges" });
     if (point.kind === "orbit") {
@@ -107,7 +111,11 @@ export class PointView {
     }
     fill(
       this.heading,
-      make("h2", { tabindex: -1 }, `${point.run}: ${name || (isFound ? "the orbit" : `point ${point.number}`)}`),
+      make(
+        "h2",
+        { tabindex: -1 },
+        `${point.run}: ${name || (isFound ? foundName(what, point, run) : `point ${point.number}`)}`,
+      ),
       name ? make("p", {}, `point ${point.number}${type ? `: ${type}` : ""}`) : type ? make("p", {}, type) : null,
       badges,
       make("p", { class: "summary" }, this.summary(point)),
@@ -123,6 +131,7 @@ export class PointView {
     const more = pointButtons(this.workspace, point, model, this.acts);
     fill(this.actions, ...actionButtons(this.workspace, point, this.acts, () => this.modelOf(point.run), more));
     this.showMultipliers(point);
+    this.showEigenvalues(point, model?.time_unit ?? "");
     this.shown = { run: point.run, number: point.number };
     if (this.awaitsFocus) this.focus();
     const coordinates = this.variedOf(point),
@@ -158,7 +167,7 @@ export class PointView {
   private placeOf(point: Point): NamedNumber[] {
     const { workspace } = this,
       run = workspace.run(point.run);
-    if (run?.kind !== "orbit") return this.variedOf(point);
+    if (!run || !standsAlone(run)) return this.variedOf(point);
     const others = new Set(workspace.runs.filter(({ model }) => model === run.model).flatMap(varied));
     const chosen = point.coordinates.filter(({ name }) => others.has(name));
     return (chosen.length > 0 ? chosen : point.coordinates).slice(0, 4);
@@ -195,6 +204,34 @@ export class PointView {
       make("div", { class: "pair" }, this.multipliers.root, list),
     );
   }
+
+  private showEigenvalues({ eigenvalues }: Point, timeUnit: string): void {
+    const all = eigenvalues ?? []; // pages that were exported before have none
+    this.eigenvaluePlace.hidden = all.length === 0;
+    const rows = all.map((one) => make("li", {}, eigenvalueText(one, timeUnit)));
+    fill(
+      this.eigenvaluePlace,
+      make("h3", {}, timeUnit ? `Eigenvalues, per ${timeUnit}` : "Eigenvalues"),
+      make("ul", { class: "numbers", "aria-label": "Eigenvalues" }, ...rows),
+    );
+  }
+}
+
+/** Of an equilibrium: how fast disturbances of it grow, and how they oscillate. */
+function eigenvalueText([re, im]: [Num, Num], unit: string): string {
+  const real = shown(re, 5);
+  if (!im) return real;
+  const period = `period ${withUnit((2 * Math.PI) / Math.abs(im), unit, 5)}`;
+  return `${real} ${im < 0 ? "−" : "+"} ${shown(Math.abs(im), 5)}i, ${period}`;
+}
+
+function isAtRest(point: Point): boolean {
+  return point.signature === "equilibrium";
+}
+
+/** What a run has found, by its number where it has found several. */
+function foundName(what: string, point: Point, run: Run | undefined): string {
+  return run && run.points > 1 ? `${what} ${point.number + 1} of ${run.points}` : `the ${what}`;
 }
 
 function section(title: string, open: boolean, ...content: (HTMLElement | null)[]): HTMLElement | null {

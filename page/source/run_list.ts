@@ -86,7 +86,10 @@ function outcomeLines(run: Run): string[] {
   const one = ([label, count]: [string, number]) =>
     run.is_branch ? `${kindInWords(label)}${count > 1 ? ` (${count})` : ""}` : `${labelInWords(label)}: ${count}`;
   const labels = run.labels.map(one).join(", ");
-  const ends = run.ends.map(([way, end]) => `${way ? `${way}: ` : ""}ends at ${end}`).join("; ");
+  // What a search for equilibria says of a mode is no end of a branch.
+  const ends = run.ends
+    .map(([way, end]) => `${way ? `${way}: ` : ""}${run.is_followed ? "ends at " : ""}${end}`)
+    .join("; ");
   const lines = [labels, ends, run.failure ?? "", run.failure ? (run.remedy ?? "") : ""];
   return lines.filter((line) => line);
 }

@@ -88,6 +88,11 @@ const byType: Record<string, Glyph> = {
   PT: filled(star(5, 0.5)),
   CH: open(heptagon, dot),
   HB: open(square, dot),
+  BE: open(down + upright),
+  BT: open(round(0.9) + round(0.4)),
+  ZH: filled(star(3, 0.45)),
+  HH: filled(star(4, 0.45)),
+  GH: open(down, dot),
   EX: byNumber[1],
   UZ: byNumber[2],
 };

@@ -15,9 +15,14 @@ interface Happenings {
   announce: (text: string) => void; // for those who listen to the page
 }
 
+/** Whether a run finds orbits or equilibria by themselves, which follow no parameter. */
+export function standsAlone(run: Run | null | undefined): boolean {
+  return run?.kind === "orbit" || run?.kind === "equilibrium";
+}
+
 /** What varies along a run. Orbits have all their parameters as coordinates, the ones that vary first. */
 export function varied(run: Run): string[] {
-  const count = run.kind === "orbit" ? 0 : run.kind === "curve" ? 2 : run.is_branch ? 1 : run.coordinates.length;
+  const count = standsAlone(run) ? 0 : run.kind === "curve" ? 2 : run.is_branch ? 1 : run.coordinates.length;
   return run.coordinates.slice(0, count).map(({ name }) => name);
 }
 

@@ -1,4 +1,4 @@
-"""Runs that are sequences of orbits: branches, curves, ladders, and single orbits."""
+"""Runs that are sequences of orbits: branches, curves, ladders, single orbits, and equilibria."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 
 
 class Branch(Run):
-    """A branch of periodic orbits.
+    """A branch of periodic orbits, or of equilibria.
 
     `branch["GR1"]` and `branch[17]` are orbits of it, by label or by number (-1: the last one); iterating goes through the
-    special points, which `special` lists; `orbits()` are all orbits, `points` their table, `multipliers` an array. A
-    branch is followed further from its points: `branch["GR1"].switch()`, `branch["PD1"].double()`, `branch.at(omega=2.5)`.
+    special points, which `special` lists; `orbits()` are all orbits, `points` their table, `multipliers` an array (of
+    equilibria `eigenvalues`). A branch is followed further from its points: `branch["GR1"].switch()`, `branch["PD1"].double()`, `branch.at(omega=2.5)`.
     """
 
     kind = "continue"
@@ -114,6 +114,12 @@ class Branch(Run):
         """The same for the maps over half a period, of orbits that are their own symmetric images."""
         return self._multipliers("half_multipliers")
 
+    @property
+    def eigenvalues(self) -> numpy.ndarray[Any, Any]:
+        """Eigenvalues of all equilibria: complex, per unit of time, equilibria x eigenvalues, the largest real part first;
+        NaN for orbits with a period."""
+        return self._multipliers("eigenvalues")
+
     def _multipliers(self, what: str) -> numpy.ndarray[Any, Any]:
         import numpy
 
@@ -201,6 +207,11 @@ class Orbit(Branch):
         return self.point.half_multipliers
 
     @property
+    def eigenvalues(self) -> numpy.ndarray[Any, Any]:
+        """The eigenvalues, where the orbit is an equilibrium: complex, the largest real part first; else empty."""
+        return self.point.eigenvalues
+
+    @property
     def model(self) -> Model:
         """See `Point.model`."""
         return self.point.model
@@ -215,6 +226,30 @@ class Orbit(Branch):
 
     def __repr__(self) -> str:
         return repr(self.point) if len(self) else f"<Orbit {self.name}: {self.status}>"
+
+
+class Equilibria(Branch):
+    """The equilibria that were found: all in a box of states, or the one near a state.
+
+    `rest[0]` or `rest["EP1"]` is a Point, whose `starts[0]` are the states and whose `eigenvalues` decide stability;
+    iterating goes through all, `eigenvalues` has those of all, and `ends()` tells, for each mode that was searched,
+    whether it is proven that there are no others. `follow(rest[0], V=(0, 5))` goes along a branch.
+    """
+
+    kind = "equilibrium"
+
+    @property
+    def _followed(self) -> List[str]:
+        return []
+
+    @property
+    def parameter(self) -> str:
+        """Raises AttributeError: equilibria follow no parameter; `parameters` of each is a dict of the values of all."""
+        raise AttributeError(NOTHING_FOLLOWED)
+
+    def __repr__(self) -> str:
+        stable = sum(bool(one.stable) for one in self)
+        return f"<Equilibria {self.name} of {self._record['model_name']}: {len(self)}, {stable} stable>"
 
 
 class Curve(Branch):

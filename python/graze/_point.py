@@ -28,7 +28,8 @@ class Point(Fixed, PointAnalyses):
 
     Attributes: `label` ("GR1"; empty for regular points), `number`, `type` ("GR"), `type_words` ("grazing"), `detail`,
     `parameter` (value of the one that is followed), `period`, `stable`, `multipliers` (complex, the largest first; empty
-    where they are not defined), `half_multipliers` of symmetric orbits, `unphysical`, `error` (estimated, relative),
+    where they are not defined), `half_multipliers` of symmetric orbits, `eigenvalues` of equilibria (complex, per unit of
+    time, the largest real part first; their period is 0), `unphysical`, `error` (estimated, relative),
     `starts` (segments x states), `durations` and `approach_speeds` (segments); and dicts `parameters`, `monitors`. Arrays can be read only: copy them to change them.
     """
 
@@ -92,7 +93,7 @@ class Point(Fixed, PointAnalyses):
                **keys: Any) -> Branch:
         """The other branch that leaves here, along the same parameter unless `along` says another: beyond a grazing the
         orbits with one contact more, at a flip those of twice the period, at a branch point the other branch, where a
-        symmetry is lost the orbits without it."""
+        symmetry is lost the orbits without it, at a Hopf point of an equilibrium the cycles that begin."""
         along, keys = separated("continue", along, keys, self._run._model, "switch()")
         along = self._along_as_before() if along is None else along
         return self._child("continue", {"along": along, **keys}, "switch()", Ways(threads, progress), "other")
@@ -167,6 +168,8 @@ class Point(Fixed, PointAnalyses):
         """Draws the multipliers in the complex plane, with the unit circle. Returns the axes."""
         from ._multipliers import draw_multipliers
 
+        if len(self.eigenvalues):
+            raise InputError(f"{self._name()} is an equilibrium, which has no multipliers", "look at its `eigenvalues`")
         return draw_multipliers(self.multipliers, f"{self._titled()} of {self._run.name}: {self.type_words}", axes)
 
     def __eq__(self, other: object) -> bool:
@@ -187,9 +190,10 @@ class Point(Fixed, PointAnalyses):
         return self.label or f"point {self.number}"
 
     def __repr__(self) -> str:
-        said = f"period {self.period:.7g}, {'stable' if self.stable else 'unstable'}"
+        rests = len(self.eigenvalues) > 0
+        said = f"{'equilibrium' if rests else f'period {self.period:.7g}'}, {'stable' if self.stable else 'unstable'}"
         if not self._run._followed:
-            return f"<Orbit {self._run.name} of {self._run._record['model_name']}: {said}>"
+            return f"<{self._titled() if rests else 'Orbit'} {self._run.name} of {self._run._record['model_name']}: {said}>"
         where = f"{self.type_words} at {self._run.parameter} = {self.parameter:.9g}"
         return f"<{self._titled()} of {self._run.name}: {where}, {said}>"
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any, Optional
 
 from . import _arguments as checked
-from ._branch import Branch, Curve, Ladder, Orbit
+from ._branch import Branch, Curve, Equilibria, Ladder, Orbit
 from ._calls import Along, Source, compiled_model, computed, separated
 from ._computing import Ways
 from ._identification import Identification, Record
@@ -75,10 +75,24 @@ def orbit(model: Source, *, at: At = None, onto: Optional[str] = None, threads: 
     return computed(Orbit, model, {"at": at, "onto": onto, **keys}, "orbit()", Ways(threads, progress))
 
 
+@takes_keys_of("equilibrium")
+def equilibria(model: Source, *, at: At = None, threads: Optional[int] = None, progress: Progress = None,
+               **keys: Any) -> Equilibria:
+    """All equilibria in a box of states, `equilibria(model, within={"x": (-1, 1), "v": (-1, 1)})`, proven to be all; or,
+    without a box, the one to which Newton's method leads from the initial state.
+
+    model: a Model; or a run or a point, near whose last state an equilibrium is looked for. at: see `orbit`.
+
+    Returns Equilibria. Raises StudyError for keys that cannot be used, RunFailed if there is none.
+    """
+    return computed(Equilibria, model, {"at": at, **keys}, "equilibria()", Ways(threads, progress))
+
+
 @takes_keys_of("continue")
 def follow(model: Source, *, along: Along = None, at: At = None, onto: Optional[str] = None,
            threads: Optional[int] = None, progress: Progress = None, **keys: Any) -> Branch:
-    """A branch of periodic orbits along a parameter: `follow(model, omega=(2, 4))`, or along={"omega": (2, 4)}.
+    """A branch of periodic orbits, or of equilibria, along a parameter: `follow(model, omega=(2, 4))`, or
+    along={"omega": (2, 4)}.
 
     model, at, onto: see `orbit`.
 

@@ -1,5 +1,6 @@
 #include "page/motion_json.hpp"
 
+#include "graze/orbit/signature.hpp"
 #include "graze/picture/motion_recorder.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/results/orbit_motion.hpp"
@@ -65,7 +66,9 @@ nlohmann::json orbit_motion_json(const StoredRun& run, const OrbitRecord& record
             motion.outcome.detail = fmt::format("segment {} ends early: {}", s + 1, segments[s].problem);
         }
     }
-    return motion_rows_json(model, columns, std::move(motion), {.complete = complete});
+    nlohmann::json one = motion_rows_json(model, columns, std::move(motion), {.complete = complete});
+    one["at_rest"] = is_rest(orbit.signature);
+    return one;
 }
 
 /// The rows of a record, or what an estimate was found from: values of samples.

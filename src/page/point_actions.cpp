@@ -1,6 +1,7 @@
 #include "page/point_actions.hpp"
 
 #include "graze/base/rounded.hpp"
+#include "graze/orbit/signature.hpp"
 #include "graze/symbolic/transform.hpp"
 
 #include <fmt/format.h>
@@ -31,12 +32,32 @@ std::vector<std::string> frequencies(const Model& model) {
     return names;
 }
 
+/// Whether the initial mode may have equilibria: nothing in it depends on a state that moves whatever the states are,
+/// such as the phase of a force.
+bool may_rest(const Model& model) {
+    Model expanding = model;
+    const std::vector<Expression> states = expanding.state_symbols(),
+                                  rates = expanding.expand(model.modes[model.initial_mode].rates),
+                                  met = symbols_of(rates);
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        const std::vector<Expression> in_rate = symbols_of(std::span(&rates[i], 1));
+        const bool is_clock = !rates[i].is_number(0) && std::ranges::none_of(in_rate, [&](const Expression& one) {
+            return std::ranges::find(states, one) != states.end();
+        });
+        if (is_clock &&
+            (std::ranges::find(met, states[i]) != met.end() || (!model.states[i].period && !model.states[i].drifting)))
+            return false;
+    }
+    return true;
+}
+
 /// Collects the actions of one point.
 class ActionFinder {
 public:
     explicit ActionFinder(const PointOrigin& origin)
         : origin_(origin), type_(origin.type()), parameters_(proposed_parameters(origin)),
-          has_section_(!origin.model.sections.empty()) {}
+          has_section_(!origin.model.sections.empty()),
+          rests_(origin.orbit && is_rest(origin.orbit->point.solution.orbit.signature)) {}
 
     std::vector<PointAction> find() {
         if (origin_.run.empty())
@@ -74,6 +95,8 @@ private:
 
     void find_of_model() {
         add("simulate", "Simulate", "the motion from the initial state");
+        if (may_rest(origin_.model))
+            add("equilibrium", "Find the equilibrium", "the one to which Newton's method leads from the initial state");
         if (!has_section_)
             return;
         add("sweep", "Sweep", "what motions settle on as a parameter changes", 1);
@@ -90,6 +113,8 @@ private:
             add("orbit", "Find the orbit", "the periodic orbit that the motion has settled on, with its multipliers");
             add("follow", "Follow the orbit", "its branch as a parameter changes, also where it is unstable", 1);
         }
+        if (result.label == Label::equilibrium)
+            add("equilibrium", "Find the equilibrium", "the one in which the motion ends, with its eigenvalues");
         find_of_any();
     }
 
@@ -118,7 +143,11 @@ private:
 
     void find_of_branch() {
         const PointKind& kind = kind_of(type_);
-        if (type_ == PointType::flip)
+        if (type_ == PointType::hopf && rests_)
+            add("switch", "The cycles", "the cycles that begin at this Hopf point", 1, "other");
+        else if (type_ == PointType::hopf)
+            add("switch", "The equilibria", "the branch of equilibria at which the cycles end", 1, "other");
+        else if (type_ == PointType::flip)
             add("double", "Double the period", "the orbits of twice the period that leave at this flip", 1, "other");
         else if (type_ == PointType::grazing)
             add("switch", "Beyond the grazing", "the orbits with one contact more, or fewer", 1, "other");
@@ -126,19 +155,21 @@ private:
             add("switch", "Lose the symmetry", "the orbits without the symmetry, which leave here", 1, "other");
         else if (kind.has_bifurcating_branch)
             add("switch", "The other branch", "the branch that crosses here", 1, "other");
-        if (kind.may_be_kept)
+        // A Hopf point is held on equilibria only, on which branch points are not.
+        if (kind.may_be_kept && (type_ == PointType::hopf ? rests_ : !rests_ || type_ != PointType::branch_point))
             add("curve", "Curve of such points", fmt::format("where this {} is as two parameters change", kind.name),
                 2);
         if (type_ == PointType::chatter)
             add("curve", "Curve of such points", "where this onset of chatter is as two parameters change", 2);
         if (type_ == PointType::grazing)
             add("ladder", "Ladder of grazings", "the next grazings, each with one contact more, up to chatter", 1);
+        const char* const what = rests_ ? "equilibrium" : "orbit";
         add("follow", "Follow",
             has_own_parameter() ? "the same branch along this parameter, with other bounds if wanted"
-                                : "follow this orbit as a parameter changes",
+                                : fmt::format("follow this {} as a parameter changes", what),
             1, has_own_parameter() ? "same" : "");
         if (has_own_parameter())
-            add_another("the branch of this orbit along another parameter");
+            add_another(fmt::format("the branch of this {} along another parameter", what));
         const Orbit& orbit = origin_.orbit->point.solution.orbit;
         // The image of an orbit that ends at a section does not end there.
         if (!origin_.model.symmetries.empty() && !orbit.symmetry && !orbit.signature.empty() &&
@@ -153,25 +184,33 @@ private:
                 fmt::format("the curve of {} that meets this one here", words), 2, of);
         };
         const bool folds = type_ == PointType::fold_flip || type_ == PointType::fold_torus ||
-                           type_ == PointType::fold_degenerate || type_ == PointType::resonance_1;
+                           type_ == PointType::fold_degenerate || type_ == PointType::resonance_1 ||
+                           type_ == PointType::takens_bogdanov || type_ == PointType::zero_hopf;
         const bool flips = type_ == PointType::fold_flip || type_ == PointType::flip_torus ||
                            type_ == PointType::flip_degenerate || type_ == PointType::resonance_2;
         const bool tori = type_ == PointType::fold_torus || type_ == PointType::flip_torus ||
                           type_ == PointType::resonance_1 || type_ == PointType::resonance_2;
+        const bool hopf =
+            type_ == PointType::takens_bogdanov || type_ == PointType::zero_hopf || type_ == PointType::double_hopf;
         if (folds)
             curve("SN", "folds");
         if (flips)
             curve("PD", "flips");
         if (tori)
             curve("NS", "torus points");
-        add("follow", "Follow one parameter", "the branch of this orbit as one parameter changes", 1, "same");
-        add_another("the branch of this orbit along the other parameter");
+        if (hopf)
+            curve("HB", "Hopf points");
+        const char* const what = rests_ ? "equilibrium" : "orbit";
+        add("follow", "Follow one parameter", fmt::format("the branch of this {} as one parameter changes", what), 1,
+            "same");
+        add_another(fmt::format("the branch of this {} along the other parameter", what));
     }
 
     const PointOrigin& origin_;
     PointType type_;
     std::vector<AlongParameter> parameters_;
     bool has_section_;
+    bool rests_; ///< the point is an equilibrium
     std::vector<PointAction> actions_;
 };
 

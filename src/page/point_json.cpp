@@ -1,5 +1,6 @@
 #include "page/point_json.hpp"
 
+#include "graze/orbit/signature.hpp"
 #include "graze/results/model_table.hpp"
 #include "graze/results/orbit_table.hpp"
 #include "graze/results/result_table.hpp"
@@ -63,7 +64,8 @@ nlohmann::json orbit_json(const StoredRun& run, const OrbitRecord& record) {
     const std::string shown = run.record.point_name(record.label);
     one["kind"] = "orbit";
     one["title"] = shown.empty() ? title_of(record) : shown;
-    one["period"] = number_json(orbit.period());
+    const bool rests = is_rest(orbit.signature);
+    one["period"] = rests ? nlohmann::json() : number_json(orbit.period());
     one["error"] = solution.error ? number_json(*solution.error) : nlohmann::json();
     one["coordinates"] = valued_json(run, run.record.coordinates, parameters_of(run, record));
     one["parameters"] = parameters_json(model);
@@ -76,7 +78,8 @@ nlohmann::json orbit_json(const StoredRun& run, const OrbitRecord& record) {
                      table_json("minima of events", minimum_table(model, solution)),
                      table_json("events at ends of segments", end_value_table(model, solution))};
     PointFacts facts;
-    facts.add("period", orbit.period(), model.time_unit);
+    if (!rests)
+        facts.add("period", orbit.period(), model.time_unit);
     facts.add("solution", name_of(solution.outcome));
     facts.add("residual", solution.residual);
     if (solution.error)

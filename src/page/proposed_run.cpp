@@ -42,6 +42,8 @@ public:
             propose_sweep();
         else if (action_.name == "orbit")
             propose_orbit();
+        else if (action_.name == "equilibrium")
+            propose_equilibrium();
         else
             propose_branch();
         for (const auto& [key, value] : wish_.options)
@@ -208,6 +210,11 @@ private:
         add_period();
     }
 
+    void propose_equilibrium() {
+        add_kind(RunKind::equilibrium);
+        add_start();
+    }
+
     /// A period that is longer than those that are searched for.
     void add_period() {
         const std::size_t period = origin_.point ? origin_.point->result.period : 0;
@@ -232,7 +239,8 @@ private:
     /// an orbit with other contacts, stay behind.
     void add_monitors() {
         const bool other_contacts =
-            origin_.type() == PointType::grazing && (action_.onto == "other" || action_.name == "ladder");
+            (origin_.type() == PointType::grazing && (action_.onto == "other" || action_.name == "ladder")) ||
+            (origin_.type() == PointType::hopf && action_.onto == "other");
         std::vector<std::string> parts;
         bool usual = true;
         const std::vector<Monitor>& all = origin_.asked.branch().settings.monitors;

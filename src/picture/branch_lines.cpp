@@ -1,6 +1,7 @@
 #include "picture/branch_lines.hpp"
 
 #include "base/special_numbers.hpp"
+#include "graze/orbit/signature.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "picture/picture_kinds.hpp"
@@ -126,9 +127,10 @@ std::vector<DrawnPoint> drawn_points(const StoredRun& run, const StudyPicture& p
     for (const std::string& name : drawn)
         require_known(picture, run, name);
     require_parts(run, picture);
-    auto rows = run.rows({.columns = {"part", "label", "type", "stable", "admissible", "step", "arclength", "number"},
-                          .quantities = drawn,
-                          .directions = picture.directions});
+    auto rows = run.rows(
+        {.columns = {"part", "label", "type", "stable", "admissible", "step", "arclength", "number", "signature"},
+         .quantities = drawn,
+         .directions = picture.directions});
     std::vector<DrawnPoint> points;
     while (rows.next()) {
         const auto number = [&](std::size_t column) { // infinite values cannot be drawn
@@ -144,16 +146,20 @@ std::vector<DrawnPoint> drawn_points(const StoredRun& run, const StudyPicture& p
                                                  : Look::stable,
                           rows.integer(5),
                           number(6),
-                          number(8),
+                          number(9),
                           {}});
+        // An equilibrium has no period; a line at 0 would look like one.
+        const bool rests = rows.text(8) == rest_name();
         for (std::size_t v = 0; v < values.size(); ++v)
-            points.back().y.push_back(number(9 + v));
+            points.back().y.push_back(rests && values[v] == "period" ? not_a_number : number(10 + v));
     }
     return points;
 }
 
 void add_lines(FigurePanel& panel, const DrawnBranch& branch, std::size_t value) {
     const std::vector<DrawnPoint>& points = branch.points;
+    if (branch.apart)
+        return;
     const std::vector<Stretch> stretches = stretches_of(branch);
     // Unphysical stretches are drawn first, below the others.
     for (const bool unphysical : {true, false})
@@ -197,10 +203,11 @@ void add_symbols(FigurePanel& panel, const StudyPicture& picture, const DrawnBra
             }
         panel.series.push_back(std::move(series));
     }
-    if (branch.points.size() == 1) {
+    if (branch.points.size() == 1 || branch.apart) {
         FigureSeries& series = panel.series.emplace_back(FigureSeries{"", FigureSeries::Style::circles, branch.colour});
         series.run = branch.run;
-        series.add({branch.points[0].x, branch.points[0].y[value]}, branch.points[0].number);
+        for (const DrawnPoint& point : branch.points)
+            series.add({point.x, point.y[value]}, point.number);
     }
 }
 
@@ -214,7 +221,7 @@ void add_looks(FigurePanel& panel, const std::vector<DrawnBranch>& branches, std
     std::set<Look> shown;
     for (const DrawnBranch& branch : branches)
         for (const Stretch& stretch : stretches_of(branch))
-            if (stretch.points.size() > 1 && (!branch.kept || stretch.look == Look::unphysical))
+            if (stretch.points.size() > 1 && !branch.apart && (!branch.kept || stretch.look == Look::unphysical))
                 shown.insert(stretch.look);
     for (const auto& [look, name] : names_of_looks)
         if (shown.contains(look))

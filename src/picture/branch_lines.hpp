@@ -47,12 +47,14 @@ struct DrawnBranch {
     std::string run;
     std::vector<DrawnPoint> points;
     std::optional<PointType> kept{}; ///< type of the curve; none: a branch, whose line style shows stability
+    bool apart = false;              ///< its points are not those of one branch: no line joins them
     std::size_t colour = 0;
     std::string owner{}; ///< name of the branch if there are several; empty: its labels are black
 };
 /// Adds the lines. @param value index of the value that is drawn
 void add_lines(FigurePanel& panel, const DrawnBranch& branch, std::size_t value);
-/// Adds the symbols and labels of special points, and the symbol of a branch of one orbit.
+/// Adds the symbols and labels of special points, and the symbols of a branch of one orbit and of points that stand
+/// apart.
 void add_symbols(FigurePanel& panel, const StudyPicture& picture, const DrawnBranch& branch, std::size_t value,
                  bool labelled = true);
 

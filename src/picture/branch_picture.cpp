@@ -71,7 +71,10 @@ void add_legend(FigurePanel& panel, const StudyPicture& picture, const std::vect
     if (branches.size() > 1)
         for (const DrawnBranch& branch : branches)
             if (!branch.points.empty())
-                add_to_legend(panel, branch.owner, branch.kept ? style_of(*branch.kept) : FigureSeries::Style::line,
+                add_to_legend(panel, branch.owner,
+                              branch.kept    ? style_of(*branch.kept)
+                              : branch.apart ? FigureSeries::Style::circles
+                                             : FigureSeries::Style::line,
                               branch.colour);
     for (const auto& [style, meaning] : curve_styles(branches))
         add_to_legend(panel, meaning, style, FigureSeries::black);
@@ -99,6 +102,7 @@ ResultPicture branch_picture(const StudyPicture& picture, const ResultFile& file
         branch.run = run.record.name;
         branch.points = drawn_points(run, picture, x, values);
         branch.kept = kept_of(run);
+        branch.apart = !run.record.is_followed();
         branch.colour = colours[branches.size() - 1];
         if (runs.size() > 1)
             branch.owner = shown_name(picture, branch.run);

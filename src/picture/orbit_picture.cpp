@@ -1,4 +1,5 @@
 #include "base/special_numbers.hpp"
+#include "graze/orbit/signature.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/results/orbit_motion.hpp"
 #include "graze/results/quantity_evaluator.hpp"
@@ -194,10 +195,15 @@ private:
     std::size_t value_;
 };
 
+/// True for runs whose orbits are not those of a branch.
+bool stands_alone(const RunRecord& run) {
+    return run.is_branch() && !run.is_followed();
+}
+
 std::string title_with_parameter(const StudyPicture& picture, const StoredRun& run, const OrbitRecord& record) {
-    std::string title = run.record.kind == "orbit" ? shown_name(picture, run.record.name)
-                        : record.label.empty()     ? title_of(record)
-                                                   : run.record.point_name(record.label);
+    std::string title = stands_alone(run.record) ? shown_name(picture, run.record.name)
+                        : record.label.empty()   ? title_of(record)
+                                                 : run.record.point_name(record.label);
     if (const std::string followed = followed_parameter(run.record); !followed.empty())
         title += fmt::format(": {} = {:.6g}{}{}", shown_name(picture, followed), record.point.parameter,
                              run.unit(followed).empty() ? "" : " ", run.unit(followed));
@@ -242,6 +248,22 @@ void add_curves(FigurePanel& panel, const StudyPicture& picture, const DrawnOrbi
     show_point(panel, before, orbit.run, orbit.record.number);
 }
 
+/// Adds an equilibrium to a panel: a point, filled where it is stable.
+/// @param owner what the legend names before the stability; may be empty
+void add_rest(FigurePanel& panel, const DrawnOrbit& orbit, std::size_t value, std::size_t colour,
+              const std::string& owner) {
+    const std::size_t before = panel.series.size();
+    const bool unphysical = is_unphysical(orbit.record), stable = orbit.record.stable;
+    const std::string look = fmt::format("{} equilibrium{}", stable ? "stable" : "unstable",
+                                         unphysical && owner.empty() ? " (unphysical)" : "");
+    panel.series.push_back({.title = owner.empty() ? look : owner + ", " + look,
+                            .style = FigureSeries::Style::symbols,
+                            .colour = unphysical ? FigureSeries::grey : colour,
+                            .points = OrbitCurves(orbit, value).line(0),
+                            .symbol = stable ? 7 : 6});
+    show_point(panel, before, orbit.run, orbit.record.number);
+}
+
 FigurePanel history_panel(const StudyPicture& picture, const DrawnOrbit& orbit, std::size_t v) {
     const Axes& axes = orbit.axes;
     const NamedValue time{"t", orbit.model.time_unit, "time", {}};
@@ -263,7 +285,7 @@ ResultPicture orbit_picture(const StudyPicture& picture, const ResultFile& file)
         const StoredRun run(file, name, picture.place);
         for (OrbitRecord& record : shown_orbits(file, run, picture)) {
             const std::string title = title_with_parameter(picture, run, record);
-            const bool has_name = run.record.kind == "orbit";
+            const bool has_name = stands_alone(run.record);
             all_alone = all_alone && has_name;
             titles.push_back(picture.runs.size() > 1 && !has_name ? shown_name(picture, name) + ", " + title : title);
             orbits.push_back(drawn_orbit(run, std::move(record), picture));
@@ -285,8 +307,19 @@ ResultPicture orbit_picture(const StudyPicture& picture, const ResultFile& file)
                 figure.panels.back().roomy_x = !over_time;
             }
             const bool by_segment = orbits.size() == 1 || (!over_time && !together);
-            add_curves(figure.panels[index], picture, orbit, v, by_segment ? std::nullopt : std::optional(o),
-                       by_segment ? "" : titles[o]);
+            if (is_rest(orbit.record.point.solution.orbit.signature)) {
+                // All equilibria of a run have one colour.
+                const auto first = std::ranges::find(orbits, orbit.run, &DrawnOrbit::run) - orbits.begin();
+                const bool named = !by_segment && (!together || picture.runs.size() > 1);
+                add_rest(figure.panels[index], orbit, v,
+                         by_segment ? 0
+                         : together ? static_cast<std::size_t>(first)
+                                    : o,
+                         named ? titles[o] : "");
+            } else {
+                add_curves(figure.panels[index], picture, orbit, v, by_segment ? std::nullopt : std::optional(o),
+                           by_segment ? "" : titles[o]);
+            }
         }
     }
     figure.columns = figure.panels.size() > 1 && !orbits.front().axes.over_time ? 2 : 1;

@@ -19,7 +19,7 @@ StudyPicture default_picture(const RunRecord& run) {
     picture.kind = run.kind == "atlas"          ? "atlas"
                    : is_diagram                 ? "bifurcation"
                    : run.is_followed()          ? "branch"
-                   : run.kind == "orbit"        ? "portrait"
+                   : run.is_branch()            ? "portrait"
                    : run.kind == "identify"     ? "residuals"
                    : run.kind != "basin"        ? "history"
                    : run.coordinates.size() > 1 ? "basin"

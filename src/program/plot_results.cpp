@@ -140,7 +140,7 @@ std::optional<StudyPicture> joint_picture(const PlotArguments& arguments, const 
     const bool followed = std::any_of(all.begin(), all.end(), [](const RunRecord& run) { return run.is_followed(); });
     for (const std::string& name : names) {
         const StoredRun run(file, name, {"--run", 0, 0});
-        if (arguments.picture.runs.empty() && followed && run.record.kind == "orbit")
+        if (arguments.picture.runs.empty() && followed && run.record.is_branch() && !run.record.is_followed())
             continue; // the starting orbit of a branch is one of the branch's points
         const StudyPicture one = picture_of(arguments, run.record);
         if (!run.record.is_branch() || one.kind != "branch")

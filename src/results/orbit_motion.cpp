@@ -121,7 +121,9 @@ std::vector<SegmentMotion> orbit_motion(const Model& model, const Orbit& orbit, 
             segment.times.push_back(time + std::copysign(since, duration));
             segment.states.emplace_back(state.begin(), state.end());
         };
-        if (duration == 0) {
+        if (orbit.signature[s].end == SegmentEnd::rest) {
+            receive(0, orbit.starts[s]);
+        } else if (duration == 0) {
             receive(0, orbit.starts[s]);
             receive(0, orbit.starts[s]);
         } else if (duration > 0 && orbit.signature[s].end == SegmentEnd::chatter) {

@@ -1,10 +1,10 @@
 // Looking at results: diagrams, zoom, hovering, orbits, exports, keys, contrast.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
-import { readFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
-import { placeOfSpecial, until, viewAfter, viewOf } from "./bench.mjs";
+import { isComplete, placeOfSpecial, until, viewAfter, viewOf } from "./bench.mjs";
 
 /** Share of the pixels of the first diagram that have a colour. */
 const coloured = (page) =>
@@ -125,6 +125,45 @@ export const cases = [
       await until(page, (text) => document.querySelector(".point .player output").textContent !== text, before);
       await page.getByRole("button", { name: "⏸ Pause" }).click();
       await bench.shoot(page, "orbit-light-1920");
+    },
+  ],
+  [
+    "an equilibrium shows its eigenvalues, and the cycles that begin there can be followed",
+    async (bench) => {
+      const results = join(bench.folder, "equilibria"),
+        model = join(bench.folder, "brusselator.toml"),
+        study = join(bench.folder, "equilibria.toml");
+      writeFileSync(
+        model,
+        'name = "brusselator"\n[parameters]\na = 1\nb = 1\n[states]\nx = 1\ny = 1\n[modes.free]\n' +
+          'rates = { x = "1 - (b + 1)*x + a*x^2*y", y = "b*x - a*x^2*y" }\n',
+      );
+      writeFileSync(
+        study,
+        'name = "equilibria"\nmodel = "./brusselator.toml"\n' +
+          '[runs.rest]\nkind = "equilibrium"\nwithin = { x = [0, 10], y = [0, 10] }\n' +
+          '[runs.branch]\nkind = "continue"\nstart = { run = "rest" }\nalong = { b = [0.5, 3] }\n',
+      );
+      const made = spawnSync(bench.graze, ["run", study, "--output", results], { encoding: "utf8" });
+      assert.equal(made.status, 0, made.stderr);
+      const server = await bench.serve(results);
+      const page = await bench.open(server.address, { width: 1920, height: 1080 });
+      await page.waitForSelector(".diagram .u-over");
+      await placeOfSpecial(page, "branch", "HB1");
+      await page.getByRole("heading", { name: "branch: HB1" }).waitFor();
+      const values = page.getByRole("list", { name: "Eigenvalues" }).getByRole("listitem");
+      await until(page, () => document.querySelectorAll(".eigenvalues li").length === 2);
+      assert.equal(await values.first().textContent(), "0 + 1i, period 6.2832");
+      assert.ok(!(await page.getByRole("heading", { name: "Multipliers" }).isVisible()));
+      await page.locator(".portrait-place canvas").waitFor();
+      assert.ok(!(await page.getByRole("button", { name: "▶ Play" }).isVisible()));
+      assert.ok(await page.getByRole("button", { name: "Curve of such points" }).isVisible());
+      await bench.shoot(page, "equilibrium");
+      await page.getByRole("button", { name: "The cycles" }).click();
+      await page.locator(".action-form").getByRole("button", { name: "Compute" }).click();
+      await isComplete(page, "branch-HB1-switch");
+      await bench.shoot(page, "cycles");
+      await bench.stop(server);
     },
   ],
   [

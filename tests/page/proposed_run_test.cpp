@@ -154,7 +154,7 @@ TEST(PointActions, AreThoseOfThePoint) {
               (std::vector<std::string>{"simulate", "sweep", "orbit"}));
     EXPECT_EQ(
         names_of_actions(point_origin(parse_model("[states]\nx = 1\n[modes.one]\nrates = { x = \"-x\" }", "x.toml"))),
-        std::vector<std::string>{"simulate"});
+        (std::vector<std::string>{"simulate", "equilibrium"}));
 }
 
 TEST(PointActions, ProposeTheBoundsOfTheRun) {

@@ -30,7 +30,7 @@ def same_results(run, other):
     """Whether two runs have the same points, orbits and samples, to the last bit."""
     tables = ["points", "samples"]
     if isinstance(run, graze.Branch):
-        tables = ["points", "segments", "multipliers", "half_multipliers", "minima", "end_values"]
+        tables = ["points", "segments", "multipliers", "half_multipliers", "eigenvalues", "minima", "end_values"]
     some, others = [run.table(what) for what in tables], [other.table(what) for what in tables]
     for one, another in zip(some, others):
         names = [name for name in one if name != "run"]  # names of runs may differ
@@ -522,7 +522,7 @@ def test_a_failed_run_is_kept_with_the_error(oscillator):
 
 @pytest.mark.parametrize("function, kind", [
     (graze.ensemble, "simulate"), (graze.sweep, "sweep"), (graze.basin, "basin"), (graze.orbit, "orbit"),
-    (graze.follow, "continue"), (graze.curve, "curve"), (graze.ladder, "ladder"), (graze.record, "record"),
+    (graze.equilibria, "equilibrium"), (graze.follow, "continue"), (graze.curve, "curve"), (graze.ladder, "ladder"), (graze.record, "record"),
     (graze.identify, "identify")])
 def test_signatures_and_help_list_all_keys(function, kind):
     known = [{"from": "from_"}.get(key["name"], key["name"]) for key in graze._graze.study_keys(kind)]

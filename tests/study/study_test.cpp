@@ -316,7 +316,7 @@ TEST(Study, MistakesAreReportedWithPlaceAndRemedy) {
              {"nme = 3", "s.toml:1:1: unknown key 'nme'; did you mean 'name'?"},
              {head + "[runs.a]",
               "s.toml:3:7: runs.a has no kind; give kind = \"simulate\", \"sweep\", \"basin\", "
-              "\"orbit\", \"continue\", \"curve\", \"ladder\", \"record\", \"identify\" or \"atlas\""},
+              "\"orbit\", \"equilibrium\", \"continue\", \"curve\", \"ladder\", \"record\", \"identify\" or \"atlas\""},
              {head + "[runs.a]\nkind = \"swep\"", "s.toml:4:8: runs.a.kind cannot be 'swep'; did you mean 'sweep'?"},
              {head + "[runs.\"a b\"]\nkind = \"sweep\"",
               "s.toml:3:7: 'a b' cannot be the name of a run; use up to 100 letters, digits, '.', '_' and '-'"},
