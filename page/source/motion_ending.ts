@@ -10,6 +10,7 @@ const endings: Record<string, string> = {
   chatter: "contacts accumulate, and the model has no sticking",
   "no-separation": "after its jump the barrier is still approached",
   "no-progress": "too many events happen at one time",
+  "two-fold": "sliding ends towards both sides at once",
   "step-limit": "it takes too many steps",
 };
 

@@ -22,8 +22,8 @@ from ._grazing import CycleMap, Grazing, MapMotion
 from ._identification import Identification, Record
 from ._layout import ComparedDevice, Layout, LumpedModel, layout, mask_layers
 from ._model import Finding, Model, load, models
-from ._model_parts import (Definition, Event, Jump, Mode, Parameter, Quantity, Section, State, Symmetry, Transition,
-                           parameters, states)
+from ._model_parts import (Definition, Event, Friction, Jump, Mode, Parameter, Quantity, Section, Slide, State, Symmetry,
+                           Transition, parameters, states)
 from ._model_values import Initial, Parameters
 from ._motion import Motion
 from ._plot import Figure
@@ -43,15 +43,15 @@ __version__ = _graze.version
 __all__ = [
     "Acquisition", "Basin", "Bench", "BenchService", "Branch", "Certificate", "Chatter", "ComparedDevice",
     "Condition", "Curve", "CycleMap", "Definition", "Design", "Ensemble", "Equilibria", "Error", "Estimate",
-    "Estimates", "Event", "Experiment", "Expression", "Figure", "FileError", "Finding", "Grazing", "HarmonicFit",
-    "Identification", "Initial", "InputError", "InstrumentError", "InternalError", "Interrupted", "Jump", "Ladder",
-    "Layout", "LocatedSolution", "LumpedModel", "MapMotion", "MeasuredRecord", "MeasuredRecords", "Mode", "Model",
-    "ModelError", "Motion", "Orbit", "OrderError", "Parameter", "Parameters", "PeriodFit", "Point", "Quantity",
-    "Record", "Run", "RunFailed", "Section", "Simulation", "State", "Study", "StudyError", "Sweep", "Symmetry",
-    "Table", "Tolerance", "Transition", "Trips", "Wafers", "WorkersLost", "acos", "acquire", "asin", "atan",
-    "basin", "bench", "cos", "cosh", "coupling", "curve", "decrement", "design", "design_text", "designs",
-    "ensemble", "equilibria", "erf", "exp", "expression", "follow", "identify", "impedance", "ladder", "layout",
-    "load", "log", "mask_layers", "models", "orbit", "parameters", "points", "read_record", "read_results",
-    "record", "restitution", "run_study", "simulate", "sin", "sinh", "sqrt", "states", "studies", "sweep",
-    "symbols", "tan", "tanh",
+    "Estimates", "Event", "Experiment", "Expression", "Figure", "FileError", "Finding", "Friction", "Grazing",
+    "HarmonicFit", "Identification", "Initial", "InputError", "InstrumentError", "InternalError", "Interrupted",
+    "Jump", "Ladder", "Layout", "LocatedSolution", "LumpedModel", "MapMotion", "MeasuredRecord", "MeasuredRecords",
+    "Mode", "Model", "ModelError", "Motion", "Orbit", "OrderError", "Parameter", "Parameters", "PeriodFit", "Point",
+    "Quantity", "Record", "Run", "RunFailed", "Section", "Simulation", "Slide", "State", "Study", "StudyError",
+    "Sweep", "Symmetry", "Table", "Tolerance", "Transition", "Trips", "Wafers", "WorkersLost", "acos", "acquire",
+    "asin", "atan", "basin", "bench", "cos", "cosh", "coupling", "curve", "decrement", "design", "design_text",
+    "designs", "ensemble", "equilibria", "erf", "exp", "expression", "follow", "identify", "impedance", "ladder",
+    "layout", "load", "log", "mask_layers", "models", "orbit", "parameters", "points", "read_record",
+    "read_results", "record", "restitution", "run_study", "simulate", "sin", "sinh", "sqrt", "states", "studies",
+    "sweep", "symbols", "tan", "tanh",
 ]

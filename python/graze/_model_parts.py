@@ -192,6 +192,39 @@ class Transition(Part):
         self.chatter, self.label = chatter, label
 
 
+class Slide(Part):
+    """Two modes that meet at a surface without a jump: the motion slides along it where both push towards it. The
+    sliding mode has the name of the slide; its equations, events and transitions are derived.
+
+    surface: the name of an event, a barrier. between: the mode in which its function is negative, then that in which it
+    is positive. convention: "filippov" (the default), or "utkin"; then control is a name in the rates of both modes, -1
+    in the first and 1 in the second. watch: events of the sliding mode besides those that end it; by default those
+    that both modes watch. text: what the slide is.
+    """
+
+    _what = "a slide"
+
+    def __init__(self, surface: Any, between: Any, *, convention: Any = None, control: Any = None, watch: Any = None,
+                 text: str = "") -> None:
+        self.surface, self.between, self.convention = surface, between, convention
+        self.control, self.watch, self.text = control, watch, text
+
+
+class Friction(Part):
+    """Dry friction. Its name stands in rates for the force against a positive `velocity`: each mode with it becomes
+    modes for both directions and for rest.
+
+    velocity: of one body relative to the other. normal: the force that presses them together. coefficient: of friction
+    during slip. static: of the greatest friction at rest; by default the same. text: what it is.
+    """
+
+    _what = "a friction"
+
+    def __init__(self, velocity: Any, normal: Any, coefficient: Any, *, static: Any = None, text: str = "") -> None:
+        self.velocity, self.normal, self.coefficient = velocity, normal, coefficient
+        self.static, self.text = static, text
+
+
 class Section(Part):
     """A surface at which states are recorded: a zero of `function`, passed in the `direction` "falling", "rising" or
     "both" (the default); or where the cyclic `state` passes `value`. text: what the section is."""

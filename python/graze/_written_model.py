@@ -14,7 +14,8 @@ from ._keywords import toml_text
 from ._model_arguments import a_dict, a_list, key_of, mistake, part_of
 from ._model_drawing import write_drawing
 from ._model_lines import ModelLines
-from ._model_parts import Definition, Event, Jump, Mode, Parameter, Quantity, Section, State, Symmetry, Transition
+from ._model_parts import (Definition, Event, Friction, Jump, Mode, Parameter, Quantity, Section, Slide, State,
+                           Symmetry, Transition)
 
 FILE = "model written in Python"
 ONLY_MODE = "motion"
@@ -25,7 +26,8 @@ class WrittenModel:
 
     def __init__(self, name: Any, *, text: Any, source: Any, time_unit: Any, states: Any, parameters: Any,
                  definitions: Any, rates: Any, watch: Any, modes: Any, events: Any, jumps: Any, transitions: Any,
-                 sections: Any, symmetries: Any, quantities: Any, drawing: Any, initial_mode: Any) -> None:
+                 slides: Any, friction: Any, sections: Any, symmetries: Any, quantities: Any, drawing: Any,
+                 initial_mode: Any) -> None:
         self._out = ModelLines()
         self._modes = self._read_modes(rates, watch, modes)
         self._single = rates is not None
@@ -44,6 +46,8 @@ class WrittenModel:
         self._write_events(events)
         self._write_jumps()
         self._write_transitions(transitions)
+        self._write_slides(slides)
+        self._write_friction(friction)
         self._write_sections(sections)
         self._write_symmetries(symmetries)
         self._write_quantities(quantities)
@@ -302,6 +306,31 @@ class WrittenModel:
                 jump, mode = one.chatter
                 jump = "" if jump is None else f"jump = {toml_text(jump)}, "
                 out.add(f"chatter = {{ {jump}mode = {toml_text(mode)} }}", f"{label}.chatter")
+
+    def _names(self, key: str, given: Any, label: str) -> None:
+        names = [key_of(name, label) for name in a_list(given, label)]
+        self._out.add(f"{key} = [{', '.join(toml_text(name) for name in names)}]", label)
+
+    def _write_slides(self, slides: Any) -> None:
+        for name, label, slide in self._parts(Slide, "slides", slides, "a dict from names to graze.Slide"):
+            self._out.header("slides", name, label=label)
+            self._out.name("surface", slide.surface, f"{label}.surface")
+            self._names("between", slide.between, f"{label}.between")
+            if slide.convention is not None:
+                self._out.name("convention", slide.convention, f"{label}.convention")
+            if slide.control is not None:
+                self._out.name("control", key_of(slide.control, f"{label}.control"), f"{label}.control")
+            if slide.watch is not None:
+                self._names("watch", slide.watch, f"{label}.watch")
+            self._out.text("text", slide.text, label)
+
+    def _write_friction(self, friction: Any) -> None:
+        for name, label, one in self._parts(Friction, "friction", friction, "a dict from names to graze.Friction"):
+            self._out.header("friction", name, label=label)
+            for key in ("velocity", "normal", "coefficient", "static"):
+                if getattr(one, key) is not None:
+                    self._out.expression(key, getattr(one, key), f"{label}.{key}")
+            self._out.text("text", one.text, label)
 
     def _write_sections(self, sections: Any) -> None:
         for name, label, section in self._parts(Section, "sections", sections, "a dict from names to graze.Section"):

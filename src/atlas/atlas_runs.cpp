@@ -41,7 +41,7 @@ Signature turned(const Model& model, const Signature& signature) {
     return best;
 }
 
-constexpr std::string_view chattering = "(chatter)"; ///< behind the label of a contact, in signatures of motions
+constexpr std::string_view chattering = "*"; ///< behind the label of a contact, in signatures of motions
 
 class Reader {
 public:
@@ -74,7 +74,7 @@ private:
     /// @param touch whether one of them has no speed, which does not count
     std::size_t contacts_of(const Orbit& orbit, bool touch) const {
         const auto count = std::ranges::count_if(orbit.signature, [&](const Segment& one) {
-            return one.end == SegmentEnd::event && is_barrier(runs_.atlas->model.transitions[one.index].event);
+            return ends_by_transition(one) && is_barrier(runs_.atlas->model.transitions[one.index].event);
         });
         return (static_cast<std::size_t>(count) - (touch && count > 0 ? 1 : 0)) * (orbit.symmetry ? 2 : 1);
     }

@@ -20,14 +20,15 @@ constexpr std::size_t most_tries = 3; ///< motions of one kind in a row from whi
 constexpr std::size_t every = 4;      ///< values of the first parameter at which motions begin at random
 constexpr double wider = 0.25;        ///< share of the extent by which random states may lie beyond it
 
-/// Types of points on branches from which another branch leaves.
+/// Types of points on branches from which another branch of orbits leaves.
 bool has_departure(PointType type) {
-    return kind_of(type).has_bifurcating_branch;
+    return kind_of(type).has_bifurcating_branch && type != PointType::hopf;
 }
 
 /// Types whose curves are followed. Branch points have curves in symmetric models only, or along simpler orbits.
 bool may_be_kept(PointType type) {
-    return kind_of(type).may_be_kept && type != PointType::branch_point;
+    return kind_of(type).may_be_kept && type != PointType::branch_point && type != PointType::hopf &&
+           type != PointType::boundary_equilibrium; // equilibria are not explored
 }
 
 /// Points of curves from which no other curve is followed: no bifurcations, and branch points where a curve meets

@@ -93,7 +93,7 @@ bool BranchState::hold_kept(const Orbit& orbit) {
     if (keeps_branch_point()) // BranchPointProblem contains the condition
         return true;
     std::unique_ptr<OrbitCondition> condition;
-    if (problem_->evaluate(problem_->unknowns_of(orbit)))
+    if (rule_of(kept.type).condition && problem_->evaluate(problem_->unknowns_of(orbit)))
         condition = rule_of(kept.type).condition(problem_->equations(), problem_->evaluation(), kept);
     held_.resize(held_monitors());
     if (!condition)
@@ -237,13 +237,15 @@ bool BranchState::is_in_family(const Orbit& orbit) {
 bool BranchState::pieces_need_renewal() {
     const OrbitEquations& equations = problem_->equations();
     const OrbitLayout& layout = equations.layout();
+    if (equations.contacts_need_renewal(problem_->evaluation()))
+        return true;
     for (std::size_t k = 0; k < layout.pieces(); ++k) {
         const OrbitEvaluation& at = problem_->evaluation();
         const Eigen::VectorXd sizes = at.scales.head(static_cast<Eigen::Index>(layout.states()));
         const Eigen::MatrixXd flow = at.pieces[k].flow.leftCols(sizes.size());
         if ((sizes.cwiseInverse().asDiagonal() * flow * sizes.asDiagonal()).norm() > too_much_growth * growth_)
             return true;
-        if (layout.is_last(k) && k > layout.first_piece(layout.segment_of(k)) &&
+        if (layout.is_last(k) && !layout.accumulates(k) && k > layout.first_piece(layout.segment_of(k)) &&
             continuation_->point().u[layout.duration_of(k)] < 0.5 * equations.fixed_duration(k))
             return true;
     }

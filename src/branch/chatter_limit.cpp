@@ -229,7 +229,7 @@ ChatterLimit chatter_limit_near(const System& system, const Orbit& known, std::s
     const Model& model = system.model();
     validate_orbit(model, known);
     const auto contact = std::find_if(known.signature.rbegin(), known.signature.rend(), [&](const Segment& one) {
-        return one.end == SegmentEnd::event && model.transitions[one.index].event == event;
+        return ends_by_transition(one) && model.transitions[one.index].event == event;
     });
     if (contact == known.signature.rend())
         throw InputError("the orbit has no contact at this event", "choose the event at which contacts accumulate");

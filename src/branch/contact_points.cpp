@@ -6,6 +6,7 @@
 #include "branch/grazing_switch.hpp"
 #include "branch/orbit_quantity.hpp"
 #include "branch/reordering.hpp"
+#include "branch/sliding_name.hpp"
 #include "flow/lie_derivative.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/grazing/cycle_map.hpp"
@@ -25,10 +26,11 @@ std::unique_ptr<OrbitCondition> held(OrbitQuantity quantity) {
     return std::make_unique<OrbitQuantity>(std::move(quantity));
 }
 
-/// Returns the event that ends a segment; 0 for sections, where it is unused.
+/// Returns the event that ends a segment, or whose contacts accumulate there; 0 for sections, where it is unused.
 std::size_t own_event(const TestedPoint& point, std::size_t segment) {
     const Segment& one = point.equations.signature()[segment];
-    return one.end == SegmentEnd::event ? point.equations.model().transitions[one.index].event : 0;
+    const Transition* const transition = transition_of(point.equations.model(), one);
+    return transition ? transition->event : 0;
 }
 
 /// True when a curve keeps the duration of a segment at zero; then no other events are tested in it.
@@ -68,6 +70,11 @@ bool belongs_to_vanishing(const TestedPoint& point, const EndValue& end) {
 bool guard_is_undetermined(const TestedPoint& point, std::size_t segment) {
     const auto held = held_limit_of(point.settings);
     return held && held->kind == HeldLimit::Kind::stop && held->segment == segment && held->zero_durations > 0;
+}
+
+void add_sliding_name(const BranchState& state, SpecialPoint& special) {
+    if (const std::string name = sliding_name(state.system(), special); !name.empty())
+        special.detail += "; " + name;
 }
 
 } // namespace
@@ -121,6 +128,7 @@ bool confirm_grazing(BranchState& state, SpecialPoint& special, const BranchTest
         special.solution.multipliers.clear();
     special.detail =
         fmt::format("{}{}", state.model().events[special.event].name, special.at_end ? ", no approach speed" : "");
+    add_sliding_name(state, special);
     return true;
 }
 
@@ -193,8 +201,9 @@ void test_vanishing(const TestedPoint& point, std::vector<BranchTest>& tests) {
                          .value = has_zero_duration(point, s) ? not_a_number : point.solution.orbit.durations[s]});
 }
 
-bool confirm_vanishing(BranchState&, SpecialPoint& special, const BranchTest&) {
+bool confirm_vanishing(BranchState& state, SpecialPoint& special, const BranchTest&) {
     special.detail = fmt::format("segment {}", special.segment + 1);
+    add_sliding_name(state, special);
     return true;
 }
 
@@ -249,6 +258,7 @@ void test_guard(const TestedPoint& point, std::vector<BranchTest>& tests) {
 bool confirm_guard(BranchState& state, SpecialPoint& special, const BranchTest&) {
     special.detail =
         fmt::format("after {}", end_name(state.model(), special.solution.orbit.signature[special.segment]));
+    add_sliding_name(state, special);
     return true;
 }
 

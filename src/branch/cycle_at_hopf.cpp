@@ -79,6 +79,20 @@ std::vector<BranchStart> equilibria_from(const SpecialPoint& point) {
 
 } // namespace
 
+SpecialPoint hopf_of_equilibrium(const System& system, const SpecialPoint& point) {
+    const Orbit& orbit = point.solution.orbit;
+    if (point.type != PointType::hopf || is_rest(orbit.signature))
+        return point;
+    SpecialPoint result = point;
+    result.solution =
+        solve_orbit(system, orbit_of_rest(orbit.signature.front().mode, orbit.starts.front(), orbit.parameters));
+    if (result.solution.outcome != OrbitOutcome::converged)
+        throw InputError("the equilibrium to which the cycles shrink was not found: " + result.solution.detail,
+                         "start from a point HB of a branch of equilibria");
+    result.tangent = {};
+    return result;
+}
+
 std::vector<BranchStart> leave_hopf(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
     if (!is_rest(point.solution.orbit.signature))
         return equilibria_from(point);

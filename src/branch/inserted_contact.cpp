@@ -23,7 +23,7 @@ Orbit two_rounds(const System& system, const Orbit& orbit) {
 Orbit joined_pieces(const Orbit& pieces) {
     Orbit orbit{{}, pieces.parameters, {}, {}, pieces.symmetry};
     for (std::size_t k = 0; k < pieces.segments(); ++k)
-        if (k == 0 || pieces.signature[k - 1].end == SegmentEnd::event) {
+        if (k == 0 || ends_by_transition(pieces.signature[k - 1])) {
             append(orbit, pieces.signature[k], pieces.starts[k], pieces.durations[k]);
         } else {
             orbit.signature.back() = pieces.signature[k];

@@ -6,6 +6,7 @@
 #include "graze/base/require.hpp"
 #include "graze/flow/roots.hpp"
 #include "orbit/orbit_flow.hpp"
+#include "orbit/segment_arcs.hpp"
 
 #include <fmt/format.h>
 
@@ -62,7 +63,7 @@ public:
     Evaluator(const System& system, const Signature& signature, std::vector<Monitor> monitors, double tolerance)
         : monitors_(std::move(monitors)), system_(system),
           simulation_(system, {}, observed(), {.tolerance = tolerance}), flow_(flow_of(simulation_)),
-          roots_(simulation_.order()) {
+          arcs_of_(Simulation(system, {}, {}, {.tolerance = tolerance})), roots_(simulation_.order()) {
         for (const Monitor& monitor : monitors_)
             functions_.push_back(is_at_point(monitor.kind) ? system.function_of({&monitor.expression, 1}) : Function());
         set_signature(signature);
@@ -174,12 +175,18 @@ private:
             return;
         const std::size_t mode = orbit.signature[s].mode;
         const std::size_t events = simulation_.system().mode(mode).watched.size();
-        std::vector<double> state = orbit.starts[s];
-        flow_.run(mode, state, orbit.durations[s], [&](const Jet& jet, double, double length) {
-            for (std::size_t m = 0; m < monitors_.size(); ++m)
-                if (is_along_arcs(monitors_[m].kind) && wanted(m))
-                    gather(m, jet.output(events + series_[m]), length);
-        });
+        const SegmentArcs along = arcs_of_(orbit, s);
+        std::vector<double> state;
+        for (std::size_t i = 0; i < along.starts.size(); ++i) {
+            state = along.starts[i];
+            flow_.run(mode, state, along.durations[i], [&](const Jet& jet, double, double length) {
+                for (std::size_t m = 0; m < monitors_.size(); ++m)
+                    if (is_along_arcs(monitors_[m].kind) && wanted(m))
+                        gather(m, jet.output(events + series_[m]), length);
+            });
+        }
+        if (!along.end.empty())
+            state = along.end;
         for (std::size_t m = 0; m < monitors_.size(); ++m)
             if (monitors_[m].kind == Monitor::Kind::value && wanted(m))
                 values_[m] = at(m, state, orbit);
@@ -242,6 +249,7 @@ private:
     System system_;
     Simulation simulation_;
     ModeFlow flow_;
+    SegmentArcsFinder arcs_of_;
     RootFinder roots_;
     std::vector<std::optional<std::size_t>> segments_;
     std::vector<Function> functions_;

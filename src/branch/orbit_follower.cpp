@@ -1,6 +1,7 @@
 #include "branch/branch_follower.hpp"
 
 #include "branch/bounds.hpp"
+#include "branch/chatter_end.hpp"
 #include "branch/first_step.hpp"
 #include "branch/other_branch.hpp"
 #include "branch/point_locator.hpp"
@@ -80,6 +81,8 @@ public:
             return end(BranchOutcome::steps, "");
         if (shrinking_.end())
             return end_at_equilibrium();
+        if (ChatterEnd::is_at_onset(here_.point.solution.orbit) && end_of_chatter())
+            return true;
         if (state_.pieces_need_renewal() ||
             cuts_are_oblique(state_.problem().equations(), state_.problem().evaluation())) {
             state_.renew_pieces(here_.point);
@@ -99,6 +102,7 @@ public:
         if (reversed_section(rates, state_.rates_at_sections()) || shrinking_.must_turn())
             return step_without_touch(continuation);
         shrinking_.update(before.point.solution.orbit);
+        chatter_end_.note(before.point);
         describe_here();
         ++here_.point.step;
         here_.point.iterations = state_.continuation().point().iterations;
@@ -172,6 +176,8 @@ private:
         if (state_.settings().kept && !starts_simpler_ && simpler_end_.is_beside())
             return end_beside_simpler();
         const std::string edge = touch_at_edge(state_.settings(), here_.point.solution.orbit);
+        if (edge.empty() && end_of_chatter())
+            return true;
         if (edge.empty())
             return end(state_.continuation().outcome() == ContinuationOutcome::undefined
                            ? BranchOutcome::undefined
@@ -183,6 +189,18 @@ private:
         beyond->point.step = here_.point.step + 1;
         here_ = std::move(*beyond);
         locator_.forget();
+        return true;
+    }
+    /// Ends the branch where a chatter sequence or the rest after it vanishes. @return false if none does
+    bool end_of_chatter() {
+        chatter_end_.note(here_.point);
+        auto point = chatter_end_.find(state_);
+        if (!point)
+            return false;
+        found_ = {*point};
+        found_[0].step = ++here_.point.step;
+        finish_at(0, BranchOutcome::unphysical,
+                  point->type == PointType::chatter ? "contacts no longer accumulate" : "the motion stays at rest");
         return true;
     }
     /// Ends the branch in the equilibrium to which its orbits shrink.
@@ -409,7 +427,8 @@ private:
                 finish_at(i, BranchOutcome::bound, "");
             return;
         }
-        if (state_.settings().stop_when_unphysical && was_admissible && !here_.point.solution.certificate.admissible)
+        if (state_.settings().stop_when_unphysical && was_admissible && !here_.point.solution.certificate.admissible &&
+            !end_of_chatter())
             finish(BranchOutcome::unphysical, here_.point.solution.certificate.reason);
     }
 
@@ -426,6 +445,7 @@ private:
     bool returned_ = false;       ///< the last step has led to simpler orbits
     bool starts_simpler_ = false; ///< the first orbit is a repeated orbit, or symmetric but not given as a half orbit
     SimplerEnd simpler_end_;
+    ChatterEnd chatter_end_;
     int attempts_ = 0; ///< number of repetitions of the current step
     bool ended_ = true;
 };

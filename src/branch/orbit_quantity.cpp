@@ -45,7 +45,7 @@ std::vector<double> start_of_piece(const OrbitEquations& equations, const OrbitE
 const Transition& transition_of(const OrbitEquations& equations, std::size_t segment) {
     require_index(segment, equations.signature().size(), "segment");
     if (equations.signature()[segment].end != SegmentEnd::event)
-        throw InputError(fmt::format("segment {} ends at a section", segment + 1), "choose one that an event ends");
+        throw InputError(fmt::format("no event ends segment {}", segment + 1), "choose one that an event ends");
     return equations.model().transitions[equations.signature()[segment].index];
 }
 
@@ -204,7 +204,7 @@ bool OrbitQuantity::duration(const OrbitEquations& equations, const OrbitEvaluat
 double OrbitQuantity::distance_from_touch(const OrbitEquations& equations, double share) const {
     const double off = std::abs(share - *share_);
     const bool is_cyclic =
-        equations.signature().size() == 1 && equations.signature()[0].end != SegmentEnd::event && !equations.symmetry();
+        equations.signature().size() == 1 && !ends_by_transition(equations.signature()[0]) && !equations.symmetry();
     return is_cyclic ? std::min(off, std::abs(1 - off)) : off;
 }
 

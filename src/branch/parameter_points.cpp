@@ -79,10 +79,13 @@ bool follows_force(BranchState& state, const Orbit& orbit) {
             const Eigen::VectorXd by_all = equations.gradient_of(system.with_gradient(rate)(inputs));
             forces = by_all.head(index(states)).isZero(0) &&
                      (by_all.tail(by_all.size() - index(states)).array() != 0).count() <= 1;
-            if (segment.end == SegmentEnd::event) {
-                const auto& changed = system.jump(model.transitions[segment.index].jump).changed;
-                forces = forces && std::find(changed.begin(), changed.end(), i) == changed.end();
-            }
+            const auto changes = [&](std::size_t jump) {
+                const auto& changed = system.jump(jump).changed;
+                return std::find(changed.begin(), changed.end(), i) != changed.end();
+            };
+            if (const Transition* const transition = transition_of(model, segment))
+                forces = forces && !changes(transition->jump) &&
+                         (segment.end == SegmentEnd::event || !changes(transition->chatter->jump));
         }
         return forces;
     };

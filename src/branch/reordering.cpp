@@ -32,8 +32,15 @@ constexpr PeriodsTaken all_choices[] = {next_period, {1, 1}, {2, 1}, {1, 2}, {2,
 std::optional<Orbit> followed_motion(const Simulation& simulation, const Orbit& orbit, const PeriodsTaken& periods,
                                      std::string& why) {
     const double period = orbit.return_time() * periods.taken;
-    const auto longest = static_cast<std::size_t>(std::max_element(orbit.durations.begin(), orbit.durations.end()) -
-                                                  orbit.durations.begin());
+    // Not in a chatter sequence, which is no motion in one mode.
+    std::vector<double> lengths = orbit.durations;
+    Accumulations accumulations = Accumulations::end;
+    for (std::size_t s = 0; s < orbit.segments(); ++s)
+        if (orbit.signature[s].end == SegmentEnd::chatter) {
+            lengths[s] = 0;
+            accumulations = Accumulations::segments;
+        }
+    const auto longest = static_cast<std::size_t>(std::max_element(lengths.begin(), lengths.end()) - lengths.begin());
     std::vector<double> state = orbit.starts[longest];
     std::size_t mode = orbit.signature[longest].mode;
     ModeFlow flow = flow_of(simulation);
@@ -43,15 +50,15 @@ std::optional<Orbit> followed_motion(const Simulation& simulation, const Orbit& 
         return std::nullopt;
     }
     if (periods.before > 0) {
-        const FollowedMotion before =
-            follow_motion(simulation, orbit.parameters, state, mode, orbit.return_time() * periods.before);
+        const FollowedMotion before = follow_motion(simulation, orbit.parameters, state, mode,
+                                                    orbit.return_time() * periods.before, accumulations);
         why = before.problem;
         if (!why.empty())
             return std::nullopt;
         state = before.final_state;
         mode = before.final_mode;
     }
-    const FollowedMotion motion = follow_motion(simulation, orbit.parameters, state, mode, period);
+    const FollowedMotion motion = follow_motion(simulation, orbit.parameters, state, mode, period, accumulations);
     why = motion.problem;
     if (!why.empty())
         return std::nullopt;

@@ -35,7 +35,7 @@ double largest_motion(BranchState& state, const Orbit& orbit) {
 /// Returns a description of the surface on which an orbit with contacts shrinks.
 std::string surface_of(const Model& model, const Orbit& orbit) {
     for (const Segment& segment : orbit.signature)
-        if (segment.end == SegmentEnd::event)
+        if (ends_by_transition(segment))
             return fmt::format(" on the surface of event '{}'",
                                model.events[model.transitions[segment.index].event].name);
     return "";
@@ -103,7 +103,7 @@ std::optional<SpecialPoint> locate_equilibrium(BranchState& state, const Orbit& 
 
 bool is_without_contacts(const Orbit& orbit) {
     return std::all_of(orbit.signature.begin(), orbit.signature.end(), [&](const Segment& segment) {
-        return segment.end != SegmentEnd::event && segment.mode == orbit.signature[0].mode;
+        return !ends_by_transition(segment) && segment.mode == orbit.signature[0].mode;
     });
 }
 

@@ -33,7 +33,7 @@ private:
 /// Number of contacts of an orbit with an event in one period.
 std::size_t own_contacts(const Model& model, const Orbit& whole, std::size_t event) {
     return static_cast<std::size_t>(std::ranges::count_if(whole.signature, [&](const Segment& s) {
-        return s.end == SegmentEnd::event && model.transitions[s.index].event == event;
+        return ends_by_transition(s) && model.transitions[s.index].event == event;
     }));
 }
 

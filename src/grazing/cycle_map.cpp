@@ -101,7 +101,7 @@ void add_times(CycleMap& map, const System& system, const Orbit& orbit) {
     const auto since = [&](double time) { return within_period(time - touched, map.period); };
     const auto event_at_end = [&](std::size_t s) -> std::optional<std::size_t> {
         const Segment& segment = whole.signature[s];
-        if (segment.end != SegmentEnd::event || is_identity_transition(system, segment.index))
+        if (!ends_by_transition(segment) || is_identity_transition(system, segment.index))
             return std::nullopt;
         return system.model().transitions[segment.index].event;
     };

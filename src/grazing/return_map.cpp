@@ -189,8 +189,9 @@ private:
 
     bool has_contact(std::size_t piece) const {
         const Segment& segment = equations_.signature()[equations_.layout().segment_of(piece)];
-        return equations_.layout().is_last(piece) && segment.end == SegmentEnd::event &&
-               !is_identity_transition(equations_.system(), segment.index);
+        const bool contact = equations_.layout().is_contact(piece) ||
+                             (equations_.layout().is_last(piece) && segment.end == SegmentEnd::event);
+        return contact && !is_identity_transition(equations_.system(), segment.index);
     }
 
     /// Applies the end of a piece: the correction for the event time (saltation), the jump and the symmetry.
@@ -199,7 +200,7 @@ private:
         if (has_contact(piece)) {
             const double rate = one.condition.head(n_).dot(one.field);
             const std::size_t segment = equations_.layout().segment_of(piece);
-            if (!(std::abs(rate) > least_rate * equations_.typical_rate(at_, segment)))
+            if (!(std::abs(rate) > least_rate * equations_.typical_rate_of_piece(at_, piece)))
                 return refuse(fmt::format("the contact that ends segment {} has no speed", segment + 1));
             Eigen::RowVectorXd row = one.condition.head(n_).transpose() * rows_;
             if (free_)

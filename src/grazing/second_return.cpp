@@ -140,6 +140,8 @@ private:
 std::optional<SecondGain> second_return(const OrbitEquations& equations, const OrbitEvaluation& at,
                                         const ReturnMap& back, const TouchFunctions& functions,
                                         const Eigen::VectorXd& first, const Eigen::VectorXd& second) {
+    if (equations.has_chatter()) // second derivatives of the accumulation are not known
+        return std::nullopt;
     return SecondOrderCarrier(equations, at, back, functions).propagate(first, second);
 }
 

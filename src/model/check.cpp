@@ -110,7 +110,7 @@ private:
             }
         }
         for (std::size_t i = 0; i < reached.size(); ++i)
-            if (!reached[i])
+            if (!reached[i] && !model_.modes[i].derived)
                 warn("no transition leads from the initial mode '{}' to the mode '{}'",
                      model_.modes[model_.initial_mode].name, model_.modes[i].name);
     }
@@ -147,7 +147,8 @@ private:
             if (transition.chatter && model_.events[transition.event].kind == EventKind::section)
                 warn("the transition '{}' says where chatter leads, but '{}' is not a barrier", transition.label,
                      model_.events[transition.event].name);
-            check_alternatives(transition);
+            if (!transition.derived)
+                check_alternatives(transition);
         }
     }
 

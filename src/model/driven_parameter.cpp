@@ -2,6 +2,7 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/symbolic/transform.hpp"
+#include "model/model_completion.hpp"
 #include "model/model_expressions.hpp"
 
 #include <fmt/format.h>
@@ -81,7 +82,8 @@ DrivenParameter drive_parameter(const Model& model, std::string_view parameter, 
     DrivenParameter driven;
     driven.source_ = std::make_shared<Model>(model);
     driven.parameter_ = std::string(parameter);
-    driven.model = model;
+    // Motions along surfaces depend on all rates: they are derived again.
+    driven.model = is_as_declared(model) ? declared_model(model) : model;
     Model& made = driven.model;
     made.symmetries.clear();
     const Expression symbol = made.symbol(parameter);
@@ -104,10 +106,12 @@ DrivenParameter drive_parameter(const Model& model, std::string_view parameter, 
         added.period = made.number(2 * std::numbers::pi);
     made.states.push_back(std::move(added));
     for (Mode& mode : made.modes)
-        mode.rates.push_back(made.symbol(driven.rate));
+        if (!mode.rates.empty())
+            mode.rates.push_back(made.symbol(driven.rate));
     for (Jump& jump : made.jumps)
         if (!jump.map.empty())
             jump.map.push_back(state);
+    made.complete();
     made.validate();
     return driven;
 }

@@ -2,6 +2,7 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
+#include "model/model_completion.hpp"
 #include "model/model_expressions.hpp"
 #include "model/model_validate.hpp"
 
@@ -131,16 +132,19 @@ void Model::set_parameter(std::string_view item, double value) {
                          "set the parameters that it depends on");
     require_finite(value, fmt::format("the value of parameter '{}'", item));
     parameter.value = value;
+    choose_initial_mode(*this);
 }
 
 void Model::set_initial(std::string_view item, double value) {
     State& state = states[require_named(states, item, "state")];
     require_finite(value, fmt::format("the value of state '{}'", item));
     state.initial = graph->number(value);
+    choose_initial_mode(*this);
 }
 
 void Model::set_initial_mode(std::string_view item) {
     initial_mode = require_named(modes, item, "mode");
+    initial_modes.clear();
 }
 
 std::vector<double> Model::initial_state() const {

@@ -85,6 +85,17 @@ void walk(AnyModel& model, const Visit& visit, const VisitMap& visit_map) {
     }
     for (auto& symmetry : model.symmetries)
         visit_each_state(symmetry.map, [&] { return "symmetries." + symmetry.name + ".map"; });
+    for (auto& friction : model.frictions) {
+        const auto path = [&](const char* key) { return "friction." + friction.name + "." + key; };
+        visit(friction.velocity, Role::general, [&] { return path("velocity"); });
+        visit(friction.normal, Role::general, [&] { return path("normal"); });
+        visit(friction.coefficient, Role::general, [&] { return path("coefficient"); });
+        if (friction.static_coefficient)
+            visit(*friction.static_coefficient, Role::general, [&] { return path("static"); });
+    }
+    for (auto& alternative : model.initial_modes)
+        for (auto& condition : alternative.when)
+            visit(condition.function, Role::general, [] { return std::string("initial.mode"); });
     for (auto& quantity : model.quantities)
         visit(quantity.value, Role::general, [&] { return "quantities." + quantity.name + ".value"; });
 }

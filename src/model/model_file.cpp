@@ -3,11 +3,13 @@
 #include "graze/base/input_error.hpp"
 #include "graze/base/printable.hpp"
 #include "graze/base/text_file.hpp"
-#include "model/model_file_drawing.hpp"
+#include "model/model_completion.hpp"
+#include "model/model_file_sliding.hpp"
 #include "model/model_validate.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <map>
@@ -18,10 +20,10 @@ namespace graze {
 namespace {
 
 /// Reads one model, table by table.
-class ModelReader : private DrawingParts {
+class ModelReader : private SlidingParts {
 public:
     ModelReader(std::string_view text, const std::string& file)
-        : DrawingParts(text, file), root_(parse_toml(text, file)) {}
+        : SlidingParts(text, file), root_(parse_toml(text, file)) {}
 
     Model read() {
         if (root_.empty())
@@ -41,6 +43,7 @@ public:
         const bool named =
             read("parameters", &ModelReader::name_parameters) && read("states", &ModelReader::name_states) &&
             read("definitions", &ModelReader::name_definitions) && read("modes", &ModelReader::name_modes) &&
+            read("slides", &ModelReader::name_slides) && read("friction", &ModelReader::name_frictions) &&
             mistakes_.attempt([&] { validate_names(model_, places_); });
         if (!named) // everything else refers to these names
             mistakes_.throw_noted();
@@ -52,19 +55,23 @@ public:
         model_.jumps.front().map = identity();
         read("jumps", &ModelReader::read_jumps);
         read("modes", &ModelReader::read_modes);
+        mistakes_.attempt([&] { name_derived_modes(model_, places_); });
+        read("slides", &ModelReader::read_slides);
+        read("friction", &ModelReader::read_frictions);
         read("transitions", &ModelReader::read_transitions);
         read("sections", &ModelReader::read_sections);
         read("symmetries", &ModelReader::read_symmetries);
         read("quantities", &ModelReader::read_quantities);
         read("drawing", &ModelReader::read_drawing);
         read("initial", &ModelReader::read_initial);
-        if (top.count("initial") == 0 && model_.modes.size() > 1)
+        if (top.count("initial") == 0 && written_modes() > 1)
             mistakes_.attempt([&] {
                 throw InputError({source_.file(), 0, 0},
                                  "the model has several modes but does not say which one is first",
                                  "add [initial] with mode = \"<mode>\"");
             });
         mistakes_.throw_noted();
+        complete_model(model_, places_);
         validate_model(model_, places_);
         return std::move(model_);
     }
@@ -349,10 +356,15 @@ private:
         });
     }
 
+    /// Returns the number of modes that the file has, without those that are made for it.
+    std::size_t written_modes() const {
+        return model_.modes.size() - static_cast<std::size_t>(std::ranges::count(model_.modes, true, &Mode::derived));
+    }
+
     void read_initial(const TomlEntry& entry) {
         std::optional<std::size_t> mode;
         read_parts(entry, {{"mode", index_into(mode, model_.modes, "mode")}});
-        if (!mode && model_.modes.size() > 1)
+        if (!mode && written_modes() > 1)
             fail_missing(entry, "mode", "mode");
         model_.initial_mode = mode.value_or(model_.initial_mode);
     }
@@ -364,8 +376,8 @@ private:
 
 const std::vector<std::string>& model_keys() {
     static const std::vector<std::string> keys{
-        "name",   "text",  "source",      "time_unit", "parameters", "states",     "definitions", "modes",
-        "events", "jumps", "transitions", "sections",  "symmetries", "quantities", "drawing",     "initial"};
+        "name",  "text",        "source", "time_unit", "parameters", "states",     "definitions", "modes",   "events",
+        "jumps", "transitions", "slides", "friction",  "sections",   "symmetries", "quantities",  "drawing", "initial"};
     return keys;
 }
 

@@ -25,9 +25,15 @@ protected:
     ModelParts(std::string_view text, const std::string& file)
         : source_(text, file), reader_(file), places_(file, &source_) {}
 
-    /// Makes the names of parameters, states and definitions known to expressions.
+    /// Makes the names of parameters, states and definitions known to expressions, also those of frictions and
+    /// controls.
     void make_scope() {
         scope_ = scope_of(model_, *model_.graph);
+        for (const Friction& friction : model_.frictions)
+            scope_.insert_or_assign(friction.name, model_.symbol(friction.name));
+        for (const Slide& slide : model_.slides)
+            if (!slide.control.empty())
+                scope_.insert_or_assign(slide.control, model_.symbol(slide.control));
         drawing_scope_ = scope_of(model_, *drawing_graph_);
     }
 

@@ -80,7 +80,19 @@ class Validator {
 public:
     Validator(const Model& model, const Places& places) : model_(model), places_(places) {}
 
+    void run_declarations() const {
+        validate_names(model_, places_);
+        check_other_names();
+        check_sizes();
+        check_indices();
+        require_own_expressions();
+        check_circles();
+    }
+
     void run() const {
+        if (!model_.declared && !(model_.slides.empty() && model_.frictions.empty()))
+            fail("slides", "the model has slides or frictions whose modes have not been made",
+                 "call Model::complete when all parts are there");
         if (model_.states.empty())
             fail("states", "the model has no states", "give at least one state, with its initial value, in [states]");
         if (model_.modes.empty())
@@ -148,7 +160,8 @@ private:
     void check_sizes() const {
         const std::size_t states = model_.states.size();
         for (const Mode& mode : model_.modes)
-            check_count("modes." + mode.name + ".rates", mode.rates.size(), states, "states");
+            if (!mode.derived || !mode.rates.empty()) // a mode to be made has none
+                check_count("modes." + mode.name + ".rates", mode.rates.size(), states, "states");
         for (std::size_t i = 0; i < model_.jumps.size(); ++i)
             if (i > 0 || !model_.jumps[i].map.empty())
                 check_count("jumps." + model_.jumps[i].name, model_.jumps[i].map.size(), states, "states");
@@ -184,6 +197,14 @@ private:
                 check_index(path + ".chatter.mode", transition.chatter->mode, model_.modes.size(), "mode");
             }
         }
+        for (const Slide& slide : model_.slides) {
+            const std::string path = "slides." + slide.name;
+            check_index(path + ".surface", slide.surface, model_.events.size(), "event");
+            check_index(path + ".between", slide.left, model_.modes.size(), "mode");
+            check_index(path + ".between", slide.right, model_.modes.size(), "mode");
+            for (const std::size_t event : slide.watched.value_or(std::vector<std::size_t>{}))
+                check_index(path + ".watch", event, model_.events.size(), "event");
+        }
         for (const Section& section : model_.sections)
             check_index("sections." + section.name + ".state", section.state.value_or(0), model_.states.size(),
                         "state");
@@ -197,13 +218,19 @@ private:
             }
     }
 
-    void check_expressions() const {
+    void require_own_expressions() const {
         const std::vector<Expression> parametric = expressions_of(model_, ExpressionRole::in_parameters),
                                       general = expressions_of(model_, ExpressionRole::general);
         const auto is_own = [&](const Expression& one) { return !one.empty() && one.graph() == model_.graph; };
         if (!std::all_of(parametric.begin(), parametric.end(), is_own) ||
             !std::all_of(general.begin(), general.end(), is_own))
             fail_expression();
+    }
+
+    void check_expressions() const {
+        require_own_expressions();
+        const std::vector<Expression> parametric = expressions_of(model_, ExpressionRole::in_parameters),
+                                      general = expressions_of(model_, ExpressionRole::general);
         std::unordered_set<NodeIndex> parameters;
         for (const Parameter& parameter : model_.parameters)
             parameters.insert(model_.symbol(parameter.name).index());
@@ -247,6 +274,12 @@ private:
             throw InputError(
                 place, fmt::format("{} uses the {} '{}'", item.path, is_state ? "state" : "definition", name),
                 is_state ? "write it in terms of parameters" : "make that a dependent parameter, or write it out");
+        const bool is_control = std::any_of(model_.slides.begin(), model_.slides.end(),
+                                            [&](const Slide& one) { return one.control == name; });
+        if (is_control || find_named(model_.frictions, name))
+            throw InputError(
+                place, fmt::format("{} uses the {} '{}'", item.path, is_control ? "control" : "friction", name),
+                is_control ? "write it in rates of the two modes of its slide only" : "write it in rates only");
         throw InputError(place, fmt::format("{} uses the unknown name '{}'", item.path, name),
                          "give it as a state, parameter or definition");
     }
@@ -361,6 +394,16 @@ void validate_names(const Model& model, const Places& places) {
         names.add(state.name, "state", "states." + state.name);
     for (const Definition& definition : model.definitions)
         names.add(definition.name, "definition", "definitions." + definition.name);
+    for (const Friction& friction : model.frictions)
+        names.add(friction.name, "friction", "friction." + friction.name);
+    std::set<std::string> controls; // several slides may have one control
+    for (const Slide& slide : model.slides)
+        if (!slide.control.empty() && controls.insert(slide.control).second)
+            names.add(slide.control, "control", "slides." + slide.name + ".control");
+}
+
+void validate_declarations(const Model& model, const Places& places) {
+    Validator(model, places).run_declarations();
 }
 
 void validate_model(const Model& model, const Places& places) {

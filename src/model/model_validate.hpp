@@ -14,6 +14,8 @@ std::string name_remedy(std::string_view name, const std::vector<std::string>& k
 
 /// Checks the names of parameters, states and definitions. @throws InputError
 void validate_names(const Model& model, const Places& places);
+/// Checks what completing slides and frictions relies on: names, sizes, indices, definitions. @throws InputError
+void validate_declarations(const Model& model, const Places& places);
 /// Model::validate, with places in the model file.
 void validate_model(const Model& model, const Places& places);
 /// Model::initial_state, with places in the model file.

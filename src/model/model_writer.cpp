@@ -3,6 +3,7 @@
 #include "graze/base/input_error.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "graze/symbolic/transform.hpp"
+#include "model/model_completion.hpp"
 #include "model/model_expressions.hpp"
 #include "model/written_text.hpp"
 
@@ -51,6 +52,8 @@ public:
         write_events();
         write_jumps();
         write_transitions();
+        write_slides();
+        write_frictions();
         write_sections();
         write_symmetries();
         write_quantities();
@@ -102,16 +105,21 @@ private:
             item(definition.name, {{"value", value_text(definition.value)}, {"text", quoted_if_any(definition.text)}});
     }
 
+    std::string events(const std::vector<std::size_t>& watched) const {
+        std::vector<std::string> names;
+        for (const std::size_t event : watched)
+            names.push_back(toml_string(model_.events[event].name));
+        return fmt::format("[{}]", fmt::join(names, ", "));
+    }
+
     void write_modes() {
         for (const Mode& mode : model_.modes) {
+            if (mode.rates.empty()) // made when the declarations are completed
+                continue;
             line("\n[modes.{}]", mode.name);
             string("text", mode.text);
-            if (!mode.watched.empty()) {
-                std::vector<std::string> names;
-                for (const std::size_t event : mode.watched)
-                    names.push_back(toml_string(model_.events[event].name));
-                line("watch = [{}]", fmt::join(names, ", "));
-            }
+            if (!mode.watched.empty())
+                line("watch = {}", events(mode.watched));
             line("[modes.{}.rates]", mode.name);
             for (std::size_t i = 0; i < mode.rates.size(); ++i)
                 line("{} = {}", model_.states[i].name, value_text(mode.rates[i]));
@@ -191,6 +199,32 @@ private:
             if (transition.chatter)
                 line("chatter = {{ jump = {}, mode = {} }}", toml_string(model_.jumps[transition.chatter->jump].name),
                      toml_string(mode_name(transition.chatter->mode)));
+        }
+    }
+
+    void write_slides() {
+        for (const Slide& slide : model_.slides) {
+            line("\n[slides.{}]", slide.name);
+            string("text", slide.text);
+            line("surface = {}", toml_string(model_.events[slide.surface].name));
+            line("between = [{}, {}]", toml_string(mode_name(slide.left)), toml_string(mode_name(slide.right)));
+            if (slide.convention == SlideConvention::utkin)
+                line("convention = \"utkin\"");
+            string("control", slide.control);
+            if (slide.watched)
+                line("watch = {}", events(*slide.watched));
+        }
+    }
+
+    void write_frictions() {
+        for (const Friction& friction : model_.frictions) {
+            line("\n[friction.{}]", friction.name);
+            string("text", friction.text);
+            line("velocity = {}", value_text(friction.velocity));
+            line("normal = {}", value_text(friction.normal));
+            line("coefficient = {}", value_text(friction.coefficient));
+            if (friction.static_coefficient)
+                line("static = {}", value_text(*friction.static_coefficient));
         }
     }
 
@@ -277,14 +311,29 @@ private:
 
 } // namespace
 
-std::string write_model(const Model& model) {
+namespace {
+
+/// Writes a model with its declarations. If it was changed after they were completed it is written without them.
+std::string written(const Model& model, bool drawing) {
     model.validate();
-    return ModelWriter(model).write(true);
+    if (!model.declared)
+        return ModelWriter(model).write(drawing);
+    Model plain = is_as_declared(model) ? declared_model(model) : model;
+    if (plain.declared) {
+        plain.slides.clear();
+        plain.frictions.clear();
+    }
+    return ModelWriter(plain).write(drawing);
+}
+
+} // namespace
+
+std::string write_model(const Model& model) {
+    return written(model, true);
 }
 
 std::string write_equations(const Model& model) {
-    model.validate();
-    return ModelWriter(model).write(false);
+    return written(model, false);
 }
 
 } // namespace graze

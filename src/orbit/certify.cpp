@@ -21,9 +21,10 @@ constexpr double on_surface = 1e-9;
 class ArcWatcher {
 public:
     /// @param touched event that the orbit is constrained to touch within this segment, if any
+    /// @param origin time at which the arc begins, since the start of the segment
     ArcWatcher(const OrbitEquations& equations, std::size_t segment, RootFinder& roots,
-               std::optional<std::size_t> touched)
-        : equations_(&equations), segment_(segment), touched_(touched),
+               std::optional<std::size_t> touched, double origin = 0)
+        : equations_(&equations), segment_(segment), touched_(touched), origin_(origin),
           mode_(&equations.system().mode(equations.signature()[segment].mode)), roots_(&roots),
           sizes_(mode_->watched.size(), 0.0), falls_(mode_->watched.size(), std::numeric_limits<double>::infinity()),
           starts_(mode_->watched.size(), 0.0), lowest_(mode_->watched.size(), std::numeric_limits<double>::infinity()),
@@ -57,11 +58,11 @@ public:
             if (first)
                 starts_[w] = coefficients_[0];
             note_lowest(w, evaluate_polynomial(coefficients_, std::abs(length)));
-            const bool on_surface_here = first && std::abs(coefficients_[0]) <= on_surface * size;
+            const bool on_surface_here = first && std::abs(coefficients_[0]) <= on_surface * sizes_[w];
             find_extrema(w, time, length, on_surface_here ? size : 0);
             if (std::isinf(falls_[w])) {
                 Root root;
-                const bool zero = std::abs(coefficients_[0]) <= on_surface * size;
+                const bool zero = std::abs(coefficients_[0]) <= on_surface * sizes_[w];
                 if (roots_->first_falling(coefficients_, std::abs(length),
                                           first && zero ? RootStart::deflate : RootStart::as_is, root))
                     falls_[w] = time + sign * root.at;
@@ -113,9 +114,13 @@ public:
     }
     bool is_own(std::size_t w) const {
         const Segment& segment = equations_->signature()[segment_];
-        return segment.end == SegmentEnd::event && mode_->transitions[w] == segment.index;
+        return transition_of(equations_->model(), segment) && mode_->transitions[w] == segment.index;
     }
     bool is_identity(std::size_t w) const { return identity_[w]; }
+    /// Sizes of the functions along the arc. A flight of a chatter sequence has those of the flights before it: its own
+    /// height may be as small as the accuracy of the orbit.
+    const std::vector<double>& sizes() const { return sizes_; }
+    void set_sizes(const std::vector<double>& sizes) { sizes_ = sizes; }
 
 private:
     struct Extremum {
@@ -158,7 +163,7 @@ private:
         const std::vector<Extremum>& all = extrema_[w];
         const std::size_t event = mode_->watched[w];
         const auto note = [&](const Extremum& one, double value) {
-            result.push_back({segment_, event, one.time, value, sizes_[w]});
+            result.push_back({segment_, event, origin_ + one.time, value, sizes_[w]});
         };
         const bool is_section = equations_->model().events[event].kind == EventKind::section;
         std::vector<double> later(all.size() + 1, is_own(w) ? infinity : end); // minimum from each extremum on
@@ -183,6 +188,7 @@ private:
     const OrbitEquations* equations_;
     std::size_t segment_;
     std::optional<std::size_t> touched_;
+    double origin_;
     const System::CompiledMode* mode_;
     RootFinder* roots_;
     std::vector<double> sizes_, falls_, starts_, lowest_, coefficients_, derivative_;
@@ -222,7 +228,10 @@ public:
 
     Certificate certify() {
         for (std::size_t s = 0; s < equations_->signature().size(); ++s) {
-            check_arc(s);
+            if (equations_->layout().is_chatter(s))
+                check_contacts(s);
+            else
+                check_arc(s);
             check_end(s);
         }
         return std::move(certificate_);
@@ -272,7 +281,14 @@ private:
                 watcher.scan(integrated(k, duration), begin);
             begin += duration;
         }
-        const OrbitEvaluation::Piece& last = at_->pieces[layout.last_piece(s)];
+        judge_arc(s, watcher, at_->pieces[layout.last_piece(s)], begin, true);
+    }
+
+    /// Judges an arc that has been scanned, and records its minima. @param last piece, with its end; @param at_end
+    /// whether the segment ends there
+    void judge_arc(std::size_t s, const ArcWatcher& watcher, const OrbitEvaluation::Piece& last, double duration,
+                   bool at_end) {
+        const auto& mode = system_->mode(equations_->signature()[s].mode);
         set_state(last.end);
         values_.resize(mode.watched.size());
         mode.events.evaluate(inputs_, values_, work_);
@@ -281,15 +297,46 @@ private:
         for (std::size_t w = 0; w < mode.watched.size(); ++w) {
             rates.push_back(rate_of(w, last.field));
             round_off.push_back(round_off_of(w, last.end));
-            if (!watcher.is_own(w) && !watcher.is_identity(w))
+            if (at_end && !watcher.is_own(w) && !watcher.is_identity(w))
                 certificate_.end_values.push_back({s, mode.watched[w], values_[w], rates.back()});
         }
         if (!held_ ||
             !held_->has_zero_duration(
                 s, equations_->signature().size())) // a verdict on a segment of no duration would be round-off
-            reject(watcher.violation(begin, values_, rates, round_off));
+            reject(watcher.violation(duration, values_, rates, round_off));
         for (const OrbitMinimum& minimum : watcher.minima(values_))
             certificate_.minima.push_back(minimum);
+    }
+
+    /// Checks a complete chatter sequence: each flight between contacts that are resolved, and that each contact is
+    /// made and leads back. The remaining contacts are slow, and nothing else can come between them.
+    void check_contacts(std::size_t s) {
+        const OrbitLayout& layout = equations_->layout();
+        const Segment& segment = equations_->signature()[s];
+        double begin = 0;
+        std::vector<double> sizes;
+        for (std::size_t k = layout.first_piece(s); k < layout.last_piece(s); ++k) {
+            const double duration = at_->unknowns[index(layout.duration_of(k))];
+            const OrbitEvaluation::Piece& piece = at_->pieces[k];
+            ArcWatcher watcher(*equations_, s, roots_,
+                               is_held(HeldLimit::Kind::touch, s) ? std::optional(held_->event) : std::nullopt, begin);
+            if (!sizes.empty())
+                watcher.set_sizes(sizes);
+            watcher.scan(piece.watched, 0);
+            sizes = watcher.sizes();
+            judge_arc(s, watcher, piece, duration, false);
+            const double rate = piece.condition.head(index(states_)).dot(piece.field);
+            if (rate > least_rate * equations_->typical_rate_of_piece(*at_, k))
+                reject(fmt::format("a contact within segment {} rises instead of falling", s + 1));
+            set_state(piece.after);
+            if (guard_margin(system_->transition(segment.index), segment.mode, inputs_, work_) < 0)
+                reject(fmt::format("the guard after a contact within segment {} leads to another mode", s + 1));
+            begin += duration;
+        }
+        const OrbitEvaluation::Piece& last = at_->pieces[layout.last_piece(s)];
+        const double left = at_->unknowns[index(layout.duration_of(layout.last_piece(s)))];
+        ArcWatcher watcher(*equations_, s, roots_, std::nullopt, begin);
+        judge_arc(s, watcher, last, left, true);
     }
 
     /// Returns the event functions along a piece that the discretisation has not integrated.

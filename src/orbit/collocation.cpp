@@ -58,6 +58,8 @@ Collocation::Collocation(const Simulation& simulation, const Orbit& orbit, std::
     : OrbitEquations(simulation, orbit, std::move(free), std::move(ranges)), intervals_(intervals) {
     if (intervals == 0)
         throw InputError("a segment has no intervals", "give at least one");
+    if (has_chatter())
+        throw InputError("a complete chatter sequence cannot be collocated", "use multiple shooting");
     const std::size_t states = system().states(), inputs = states + system().parameters();
     Model scratch = model();
     for (const Segment& segment : orbit.signature) {

@@ -11,7 +11,7 @@ namespace graze {
 namespace {
 
 bool is_event(const Segment& segment) {
-    return segment.end == SegmentEnd::event;
+    return ends_by_transition(segment);
 }
 
 /// Merges each segment that no event ends with the following ones, up to the next event.

@@ -1,6 +1,7 @@
 #include "orbit/equilibrium_equations.hpp"
 
 #include "base/concatenated.hpp"
+#include "base/decompositions.hpp"
 #include "graze/base/require.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "model/unused_symbol.hpp"
@@ -9,6 +10,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <set>
 
 namespace graze {
 
@@ -36,6 +39,7 @@ EquilibriumEquations::EquilibriumEquations(const System& system, std::size_t mod
     require_index(mode, model_.modes.size(), "mode");
     const std::vector<Expression> states = model_.state_symbols(), parameters = model_.parameter_symbols();
     rates_of_all_ = model_.expand(model_.modes[mode].rates);
+    keep_to_surfaces();
     classify();
     std::vector<Expression> symbols = states;
     symbols.insert(symbols.end(), parameters.begin(), parameters.end());
@@ -63,6 +67,36 @@ EquilibriumEquations::EquilibriumEquations(const System& system, std::size_t mod
     for (std::size_t k = 0; k < variables_.size(); ++k)
         along.emplace_back(variables_[k], direction_[k]);
     second_ = SparseDerivatives(symbols_, differentiate_along(rates_, along), variables_);
+}
+
+/// Adds to the rate of a state on which a surface h = 0 depends -c h/h_x, so that h' = -c h.
+void EquilibriumEquations::keep_to_surfaces() {
+    const std::vector<Expression> states = model_.state_symbols();
+    const std::vector<SlidingSurface>& surfaces = model_.modes[mode_].slides_on;
+    if (surfaces.empty())
+        return;
+    // A rate like those of the motion: its size does not matter for the result.
+    const Function field = system_.function_of(graze::jacobian(rates_of_all_, states));
+    const std::vector<double> values = field(concatenated(model_.initial_state(), model_.parameter_values()));
+    double fastest = 0;
+    if (const auto found =
+            vector_of(values).allFinite()
+                ? eigenvalues(Eigen::Map<const RowMajor>(values.data(), index(states.size()), index(states.size())))
+                : std::nullopt)
+        fastest = found->cwiseAbs().maxCoeff();
+    std::set<std::size_t> used;
+    for (const SlidingSurface& surface : surfaces) {
+        const Expression h = model_.expand(model_.events[surface.surface].function);
+        for (std::size_t i = 0; i < states.size(); ++i) {
+            const Expression slope = differentiate(h, states[i]);
+            if (slope.is_number(0) || model_.states[i].period || !used.insert(i).second)
+                continue;
+            const double rate = (fastest > 0 ? fastest : 1) * (1 + 0.37 * static_cast<double>(added_.size()));
+            rates_of_all_[i] = rates_of_all_[i] - rate * h / slope;
+            added_.push_back(-rate);
+            break;
+        }
+    }
 }
 
 void EquilibriumEquations::classify() {

@@ -34,6 +34,9 @@ private:
 /// The equations of equilibria in one mode: the rates of the active states are zero. Active are the states whose rate
 /// depends on states, except drifting ones. Clocks (cyclic states that advance at a rate of their own), drifting states
 /// and states that do not move keep the values that they are given. All derivatives are symbolic.
+///
+/// In a mode that slides along surfaces the field says nothing of how far a state is from them. There it is completed so
+/// that distances decay, each at a rate of its own, which adds an eigenvalue for each surface.
 class EquilibriumEquations {
 public:
     /// @param free independent parameters with respect to which derivatives are computed
@@ -45,6 +48,8 @@ public:
     /// The active states, rising.
     const std::vector<std::size_t>& active() const { return active_; }
     const std::vector<std::size_t>& clocks() const { return clocks_; }
+    /// The eigenvalues that sliding along surfaces adds to those of the motion.
+    const std::vector<double>& added_eigenvalues() const { return added_; }
     /// Number of equations, which is that of active states.
     Eigen::Index size() const { return static_cast<Eigen::Index>(active_.size()); }
     /// Number of variables: active states, then free parameters.
@@ -69,12 +74,14 @@ public:
 private:
     friend class EquilibriumThirdDerivatives;
     void classify();
+    void keep_to_surfaces();
     std::vector<double> inputs(std::span<const double> state, std::span<const double> parameters) const;
 
     System system_;
     std::size_t mode_;
     std::vector<ParameterId> free_;
     std::vector<std::size_t> active_, clocks_, steady_; ///< steady: moves at a rate that depends on parameters only
+    std::vector<double> added_;
     Model model_;                                       ///< a copy, whose graph may grow
     std::vector<Expression> rates_of_all_, rates_, variables_, direction_, other_;
     /// States, independent parameters, a direction of the variables and one of the active states.

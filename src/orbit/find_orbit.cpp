@@ -11,22 +11,32 @@
 
 #include <algorithm>
 #include <limits>
+#include <string_view>
 
 namespace graze {
 
 namespace {
 
+std::string accumulation_in_words(const Model& model, const Contact& contact, std::string_view how) {
+    return fmt::format("contacts at '{}' accumulate{} at time {:.9g}", model.events[contact.event].name, how,
+                       contact.time);
+}
+/// Contacts whose accumulation is no segment: others come in between, or they are not slower and slower.
+constexpr std::string_view mixed = " together with other events";
+/// Number of equal contacts before an accumulation below which it is not theirs.
+constexpr std::size_t fewest_contacts = 2;
+
 /// Records the segments of a motion.
 class SegmentRecorder : public Observer {
 public:
-    SegmentRecorder(const System& model, FollowedMotion& motion) : model_(&model), motion_(&motion) {}
+    SegmentRecorder(const System& model, FollowedMotion& motion, Accumulations accumulations)
+        : model_(&model), motion_(&motion), accumulations_(accumulations) {}
 
     void contact(const Contact& contact) override {
         if (contact.kind == ContactKind::touch)
             return;
         if (contact.kind == ContactKind::sticking) {
-            motion_->problem = fmt::format("contacts at '{}' accumulate at time {:.9g}",
-                                           model_->model().events[contact.event].name, contact.time);
+            accumulate(contact);
             return;
         }
         if (is_identity_transition(*model_, contact.transition))
@@ -39,8 +49,34 @@ public:
     bool stop() override { return !motion_->problem.empty(); }
 
 private:
+    /// Makes one segment of all contacts that accumulate.
+    void accumulate(const Contact& contact) {
+        if (accumulations_ == Accumulations::end) {
+            motion_->problem = accumulation_in_words(model_->model(), contact, "");
+            return;
+        }
+        const Segment each{contact.mode_before, SegmentEnd::event, contact.transition};
+        double duration = contact.time - last_;
+        std::size_t count = 0;
+        for (; !motion_->segments.empty() && motion_->segments.back() == each; ++count) {
+            duration += motion_->durations.back();
+            motion_->segments.pop_back();
+            motion_->durations.pop_back();
+            motion_->starts.pop_back();
+        }
+        if (count < fewest_contacts && !motion_->segments.empty()) {
+            motion_->problem = accumulation_in_words(model_->model(), contact, mixed);
+            return;
+        }
+        motion_->segments.push_back({each.mode, SegmentEnd::chatter, each.index});
+        motion_->durations.push_back(duration);
+        motion_->starts.emplace_back(contact.after.begin(), contact.after.end());
+        last_ = contact.time;
+    }
+
     const System* model_;
     FollowedMotion* motion_;
+    Accumulations accumulations_;
     double last_ = 0;
 };
 
@@ -101,8 +137,7 @@ public:
         if (contact.kind == ContactKind::touch)
             return;
         if (contact.kind == ContactKind::sticking) {
-            problem_ = fmt::format("contacts at '{}' accumulate at time {:.9g}",
-                                   system_.model().events[contact.event].name, contact.time);
+            accumulate(contact);
             return;
         }
         const Segment segment{contact.mode_before, SegmentEnd::event, contact.transition};
@@ -163,6 +198,19 @@ private:
             --place;
         entries_.insert(place, {time, segment, {state.begin(), state.end()}});
     }
+    /// Makes one entry of all contacts that accumulate.
+    void accumulate(const Contact& contact) {
+        const Segment each{contact.mode_before, SegmentEnd::event, contact.transition};
+        std::size_t count = 0;
+        for (; entries_.size() > 1 && entries_.back().segment == each; ++count)
+            entries_.pop_back();
+        if (count < fewest_contacts && entries_.size() > 1) {
+            problem_ = accumulation_in_words(system_.model(), contact, mixed);
+            return;
+        }
+        next_ = std::min(next_, entries_.size() - 1);
+        note(contact.time, {each.mode, SegmentEnd::chatter, each.index}, contact.after);
+    }
     void try_pieces() {
         // Entries within the current step may be incomplete.
         for (; next_ + wanted_->size() < entries_.size() && entries_[next_ + wanted_->size()].time < time_ && !found_ &&
@@ -214,11 +262,12 @@ private:
 } // namespace
 
 FollowedMotion follow_motion(const Simulation& simulation, std::span<const double> parameters,
-                             std::span<const double> state, std::size_t mode, double time) {
+                             std::span<const double> state, std::size_t mode, double time,
+                             Accumulations accumulations) {
     require_finite(time, "the time for which a motion is followed");
     FollowedMotion motion;
     motion.starts.emplace_back(state.begin(), state.end());
-    SegmentRecorder recorder(simulation.system(), motion);
+    SegmentRecorder recorder(simulation.system(), motion, accumulations);
     Trajectory trajectory(simulation, parameters, borrowed(recorder));
     trajectory.start(state, mode, 0, time);
     JetSet jets(simulation, LaneKind::single);
@@ -263,11 +312,17 @@ std::optional<OrbitSolution> find_orbit(const System& system, const AttractorOpt
         return solve_equilibrium(system, orbit_of_rest(result.mode, result.state, model.parameter_values()), options);
     if (result.label != Label::periodic && !returns)
         throw no_orbit();
-    FollowedMotion motion = follow_motion(factory->simulation(), model.parameter_values(), result.state, result.mode,
-                                          2.6 * result.duration);
+    const auto followed = [&](double periods) {
+        return follow_motion(factory->simulation(), model.parameter_values(), result.state, result.mode,
+                             periods * result.duration, Accumulations::segments);
+    };
+    FollowedMotion motion = followed(2.6);
+    // Contacts that have not accumulated at the end of the time would be taken for others.
+    if (std::ranges::any_of(motion.segments, [](const Segment& one) { return one.end == SegmentEnd::chatter; }))
+        motion = followed(3.6);
     if (!motion.problem.empty())
         throw InputError("the orbit has no signature: " + motion.problem,
-                         "choose parameters at which contacts do not accumulate");
+                         "choose parameters at which contacts do not accumulate in this way");
     // Near an equilibrium, contacts of the motion may be due to round-off: they belong to no orbit.
     if (returns && !motion.segments.empty())
         throw no_orbit();

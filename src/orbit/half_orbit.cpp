@@ -28,8 +28,7 @@ double distance(std::span<const double> a, std::span<const double> b, const Orbi
 }
 
 bool is_smooth(const Orbit& orbit) {
-    return std::ranges::all_of(orbit.signature,
-                               [](const Segment& segment) { return segment.end != SegmentEnd::event; });
+    return std::ranges::none_of(orbit.signature, ends_by_transition);
 }
 
 /// Cuts an orbit without contacts after half its period, within its middle segment, and appends the state there to its
@@ -79,8 +78,7 @@ bool repeats_as_image(const Orbit& orbit, std::size_t index, const OrbitEquation
     };
     for (std::size_t k = 0; k < half; ++k)
         if (orbit.signature[k].end != orbit.signature[k + half].end ||
-            (orbit.signature[k].end != SegmentEnd::event &&
-             orbit.signature[k].index != orbit.signature[k + half].index) ||
+            (!ends_by_transition(orbit.signature[k]) && orbit.signature[k].index != orbit.signature[k + half].index) ||
             std::abs(orbit.durations[k] - orbit.durations[k + half]) > tolerance * orbit.period() ||
             !maps_start_to(k + half, k) || !maps_start_to(k, k + half))
             return false;

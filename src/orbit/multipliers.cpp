@@ -26,10 +26,12 @@ Eigen::MatrixXd with_saltation(const OrbitEquations& equations, const OrbitEvalu
     const OrbitLayout& layout = equations.layout();
     const auto n = index(layout.states());
     const OrbitEvaluation::Piece& piece = at.pieces[k];
-    if (layout.is_last(k)) {
+    if (layout.has_end(k) && !layout.accumulates(k)) { // the time of accumulation is part of the flow already
         const Eigen::RowVectorXd gradient = piece.condition.head(n).transpose();
         const double rate = gradient.dot(piece.field);
-        if (!(std::abs(rate) > least_rate * equations.typical_rate(at, layout.segment_of(k))))
+        // Contacts that accumulate are slow by nature.
+        const double least = layout.is_contact(k) ? least_rate * least_rate : least_rate;
+        if (!(std::abs(rate) > least * equations.typical_rate_of_piece(at, k)))
             return {};
         flow -= piece.field * (gradient * flow) / rate;
     }
@@ -65,7 +67,7 @@ public:
         mode_ = equations_->mode_of(k);
         std::vector<Eigen::MatrixXd> flows{at_->pieces[k].flow.leftCols(n)};
         std::vector<std::vector<double>> starts{{start, start + n}};
-        if (contracts(flows[0]))
+        if (!layout.accumulates(k) && contracts(flows[0]))
             split(at_->unknowns[index(layout.duration_of(k))], flows, starts);
         flows.back() = with_saltation(*equations_, *at_, k, flows.back());
         if (flows.back().size() == 0)

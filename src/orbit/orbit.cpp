@@ -82,7 +82,7 @@ Segment image_of(const System& system, std::size_t symmetry, const Segment& segm
     end_name(system.model(), segment); // throws when the end does not exist
     Segment image = segment;
     image.mode = system.model().symmetries[symmetry].modes[segment.mode];
-    if (segment.end == SegmentEnd::event)
+    if (ends_by_transition(segment))
         image.index = image_of_transition(system, symmetry, image.mode, segment.index, orbit);
     return image;
 }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace graze {
 
@@ -34,13 +35,35 @@ OrbitEquations::OrbitEquations(const Simulation& simulation, const Orbit& orbit,
       flow_(flow_of(simulation, ends_.free())), layout_(simulation.system().states(), {}, 0, ends_.free().size()),
       orbit_scales_(simulation.system().states(), usual_values(simulation.model(), ends_.free()), std::move(ranges)),
       parameters_(orbit.parameters), reference_(orbit.starts.front()) {
-    for (const Segment& segment : orbit.signature)
+    for (const Segment& segment : orbit.signature) {
         modes_.push_back(segment.mode);
+        accumulations_.emplace_back();
+        if (segment.end == SegmentEnd::chatter)
+            accumulations_.back().emplace(simulation.system(), segment.index, ends_.free());
+    }
     flow_.set_parameters(parameters_);
+    follow_contacts(orbit);
+}
+
+/// Finds the contacts of the chatter sequences that are resolved one by one.
+void OrbitEquations::follow_contacts(const Orbit& orbit) {
+    contacts_.resize(orbit.segments());
+    for (std::size_t s = 0; s < orbit.segments(); ++s) {
+        if (!accumulations_[s])
+            continue;
+        contacts_[s] =
+            follow_chatter(simulation_, *accumulations_[s], orbit.parameters, orbit.starts[s], orbit.durations[s]);
+        if (!contacts_[s].problem.empty())
+            contacts_problem_ =
+                fmt::format("segment {} is no complete chatter sequence: {}", s + 1, contacts_[s].problem);
+    }
 }
 
 void OrbitEquations::lay_out(const Orbit& orbit, const std::vector<std::size_t>& counts, std::size_t inner) {
-    layout_ = OrbitLayout(layout_.states(), counts, inner, layout_.free());
+    std::vector<bool> chatter;
+    for (const std::optional<Accumulation>& one : accumulations_)
+        chatter.push_back(one.has_value());
+    layout_ = OrbitLayout(layout_.states(), counts, inner, layout_.free(), std::move(chatter));
     fixed_durations_.clear();
     for (std::size_t k = 0; k < layout_.pieces(); ++k) {
         const std::size_t segment = layout_.segment_of(k);
@@ -58,6 +81,10 @@ Eigen::VectorXd OrbitEquations::unknowns_of(const Orbit& orbit) {
     Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(index(layout_.unknowns()));
     flow_.set_parameters(orbit.parameters);
     for (std::size_t s = 0; s < layout_.segments(); ++s) {
+        if (layout_.is_chatter(s)) {
+            set_contacts(orbit, s, unknowns);
+            continue;
+        }
         std::vector<double> state = orbit.starts[s];
         double remaining = orbit.durations[s];
         for (std::size_t k = layout_.first_piece(s); k <= layout_.last_piece(s); ++k) {
@@ -74,6 +101,32 @@ Eigen::VectorXd OrbitEquations::unknowns_of(const Orbit& orbit) {
     set_inner(orbit, unknowns);
     clear_vanishing_states(unknowns);
     return unknowns;
+}
+
+/// Sets the starts and durations of the flights of a chatter sequence, and of all that are left.
+void OrbitEquations::set_contacts(const Orbit& orbit, std::size_t s, Eigen::VectorXd& unknowns) {
+    const std::size_t first = layout_.first_piece(s), count = layout_.last_piece(s) - first;
+    const bool known = contacts_[s].durations.size() == count && contacts_[s].starts.front() == orbit.starts[s] &&
+                       parameters_ == orbit.parameters;
+    ChatterContacts found;
+    if (count == 0) // they do not accumulate
+        found.starts.push_back(orbit.starts[s]);
+    else
+        found = known ? contacts_[s]
+                      : follow_chatter(simulation_, *accumulations_[s], orbit.parameters, orbit.starts[s],
+                                       orbit.durations[s], count);
+    if (!found.problem.empty())
+        contacts_problem_ = fmt::format("segment {} is no complete chatter sequence: {}", s + 1, found.problem);
+    double remaining = orbit.durations[s];
+    for (std::size_t i = 0; i <= count; ++i) {
+        const bool there = i < found.starts.size() && (i == count || i < found.durations.size());
+        const double duration = !there       ? std::numeric_limits<double>::quiet_NaN() // evaluations will refuse it
+                                : i == count ? remaining
+                                             : found.durations[i];
+        std::ranges::copy(found.starts[there ? i : 0], unknowns.data() + layout_.start_of(first + i));
+        unknowns[index(layout_.duration_of(first + i))] = duration;
+        remaining -= duration;
+    }
 }
 
 /// Sets states to zero that are negligible against the others all along the orbit: they are decaying to zero, as a
@@ -137,12 +190,22 @@ Eigen::VectorXd OrbitEquations::unknowns_of(const OrbitDirection& direction, con
         unknowns[index(layout_.parameter(f))] = direction.parameters[f];
     for (std::size_t s = 0; s < layout_.segments(); ++s) {
         Eigen::VectorXd start = Eigen::Map<const Eigen::VectorXd>(direction.starts[s].data(), n);
+        double before = 0; // change of the durations of the flights of a chatter sequence
         for (std::size_t k = layout_.first_piece(s); k <= layout_.last_piece(s); ++k) {
             unknowns.segment(index(layout_.start_of(k)), n) = start;
-            const Eigen::MatrixXd& flow = at.pieces[k].flow;
-            start = Eigen::VectorXd(flow.leftCols(n) * start) + flow.rightCols(q) * unknowns.tail(q);
+            const OrbitEvaluation::Piece& piece = at.pieces[k];
+            start = Eigen::VectorXd(piece.flow.leftCols(n) * start) + piece.flow.rightCols(q) * unknowns.tail(q);
+            if (!layout_.is_contact(k))
+                continue;
+            // The contact comes later where the event function has gained.
+            const double gain = piece.condition.head(n).dot(start) + piece.condition.tail(q).dot(unknowns.tail(q));
+            const double later = -gain / piece.condition.head(n).dot(piece.by_time);
+            unknowns[index(layout_.duration_of(k))] = later;
+            before += later;
+            start += later * piece.by_time;
+            start = Eigen::VectorXd(piece.jump.leftCols(n) * start) + piece.jump.rightCols(q) * unknowns.tail(q);
         }
-        unknowns[index(layout_.duration_of(layout_.last_piece(s)))] = direction.durations[s];
+        unknowns[index(layout_.duration_of(layout_.last_piece(s)))] = direction.durations[s] - before;
     }
     if (layout_.inner() == 0)
         return unknowns;
@@ -211,7 +274,7 @@ bool OrbitEquations::evaluate(const Eigen::VectorXd& unknowns, OrbitEvaluation& 
     at.problem.clear();
     at.took_too_long = false;
     if (!unknowns.allFinite()) {
-        at.problem = "an unknown is not finite";
+        at.problem = contacts_problem_.empty() ? "an unknown is not finite" : contacts_problem_;
         return false;
     }
     set_parameters(unknowns, at.parameters);
@@ -242,7 +305,7 @@ bool OrbitEquations::evaluate(const Eigen::VectorXd& unknowns, OrbitEvaluation& 
 }
 
 bool OrbitEquations::evaluate_piece(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at) {
-    if (!follow(k, unknowns, at))
+    if (!(layout_.accumulates(k) ? accumulate(k, unknowns, at) : follow(k, unknowns, at)))
         return false;
     OrbitEvaluation::Piece& piece = at.pieces[k];
     const std::size_t segment = layout_.segment_of(k);
@@ -250,9 +313,69 @@ bool OrbitEquations::evaluate_piece(std::size_t k, const Eigen::VectorXd& unknow
     piece.jump.setZero(n, n + index(layout_.free()));
     piece.jump.leftCols(n).setIdentity();
     piece.after = piece.end;
-    if (!layout_.is_last(k) || ends_.pass(segment, piece))
+    if (!layout_.has_end(k) || ends_.pass(segment, piece, passed_at(k)))
         return true;
     at.problem = fmt::format("the jump after segment {} is not defined", segment + 1);
+    return false;
+}
+
+SegmentEnds::Passed OrbitEquations::passed_at(std::size_t piece) const {
+    return layout_.is_contact(piece) ? SegmentEnds::Passed::contact : SegmentEnds::Passed::end;
+}
+
+/// Takes in all contacts of a chatter sequence that are left. The state at their accumulation does not depend on the
+/// duration of the piece, which is an unknown that the time of the accumulation determines.
+bool OrbitEquations::accumulate(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at) {
+    // Excess error of the sum, beyond which other contacts must be resolved: a step leads less far instead.
+    constexpr double usable = 1e3;
+    const std::size_t segment = layout_.segment_of(k), n = layout_.states();
+    OrbitEvaluation::Piece& piece = at.pieces[k];
+    Accumulation::Remainder left;
+    if (!accumulations_[segment]->evaluate({unknowns.data() + layout_.start_of(k), n}, at.parameters, left) ||
+        !(excess_error(left, duration_of_segment(unknowns, segment)) < usable)) {
+        at.problem = contacts_problem_.empty()
+                         ? fmt::format("the contacts of segment {} do not accumulate", segment + 1)
+                         : contacts_problem_;
+        return false;
+    }
+    piece.end = numbers_of(left.state);
+    piece.flow = left.state_by;
+    piece.by_time.setZero(index(n));
+    piece.field.setZero(index(n));
+    piece.condition.setZero(left.time_by.size());
+    piece.condition_value = unknowns[index(layout_.duration_of(k))] - left.time;
+    piece.time_by = left.time_by;
+    piece.watched = {};
+    piece.inner.resize(0, 0);
+    return true;
+}
+
+bool OrbitEquations::has_chatter() const {
+    return std::ranges::any_of(accumulations_, [](const auto& one) { return one.has_value(); });
+}
+
+double OrbitEquations::duration_of_segment(const Eigen::VectorXd& unknowns, std::size_t segment) const {
+    double duration = 0;
+    for (std::size_t k = layout_.first_piece(segment); k <= layout_.last_piece(segment); ++k)
+        duration += unknowns[index(layout_.duration_of(k))];
+    return duration;
+}
+
+bool OrbitEquations::contacts_need_renewal(const OrbitEvaluation& at) const {
+    // Bounds of the excess error: few contacts sum what is not slow yet, many are round-off.
+    constexpr double few = 10, many = 1e-4;
+    for (std::size_t s = 0; s < layout_.segments(); ++s) {
+        if (!layout_.is_chatter(s))
+            continue;
+        Accumulation::Remainder left;
+        const double* const start = at.unknowns.data() + layout_.start_of(layout_.last_piece(s));
+        if (!accumulations_[s]->evaluate({start, layout_.states()}, at.parameters, left))
+            return true;
+        const double error = excess_error(left, duration_of_segment(at.unknowns, s));
+        const double per_contact = std::abs(left.ratio * left.ratio * left.ratio);
+        if (!(error < few) || error < many * per_contact)
+            return true;
+    }
     return false;
 }
 
@@ -264,7 +387,9 @@ void OrbitEquations::assemble(const Eigen::VectorXd& unknowns, OrbitEvaluation& 
         CyclicSystem::Block& block = at.system.block(k);
         block.own.setZero();
         block.next.setZero();
-        if (layout_.is_last(k)) {
+        if (layout_.accumulates(k)) {
+            assemble_accumulation(k, at);
+        } else if (layout_.has_end(k)) {
             assemble_end(k, at);
         } else {
             const Eigen::Index duration = index(layout_.duration_of(k));
@@ -308,7 +433,7 @@ void OrbitEquations::drop_accidentally_neutral(const OrbitEvaluation& at, std::v
         ends_.field(segment, state, rates);
         std::vector<double> after = state;
         double condition = 0;
-        const bool jumps = layout_.is_last(k) && ends_.pass(segment, after, condition);
+        const bool jumps = layout_.has_end(k) && ends_.pass(segment, after, condition, passed_at(k));
         for (std::size_t i = 0; i < n; ++i) {
             const double most = identity_tolerance * state_shift * state_scales[index(i)],
                          same = without_turns(after[i] - state[i], at.periods[i]),
@@ -338,6 +463,21 @@ void OrbitEquations::assemble_end(std::size_t k, OrbitEvaluation& at) const {
     block.own.row(0).head(n) = by_start / unit;
     block.own(0, n) = gradient.dot(piece.by_time) * scales_[index(layout_.duration_of(k))] / unit;
     block.parameters.row(0) = by_parameters * parameter_scales.asDiagonal() / unit;
+    block.right[0] = -piece.condition_value / unit;
+}
+
+/// Fills the row of the time that all contacts take that are left of a chatter sequence.
+void OrbitEquations::assemble_accumulation(std::size_t k, OrbitEvaluation& at) const {
+    const auto n = index(layout_.states()), q = index(layout_.free());
+    OrbitEvaluation::Piece& piece = at.pieces[k];
+    CyclicSystem::Block& block = at.system.block(k);
+    const double unit = scales_[index(layout_.duration_of(k))];
+    piece.condition_unit = unit;
+    const Eigen::RowVectorXd by_parameters = -piece.time_by.tail(q).transpose() / unit;
+    at.effects = at.effects.cwiseMax(by_parameters.transpose().cwiseAbs());
+    block.own.row(0).head(n) = -piece.time_by.head(n).cwiseProduct(scales_.head(n)).transpose() / unit;
+    block.own(0, n) = 1;
+    block.parameters.row(0) = by_parameters * scales_.tail(q).asDiagonal();
     block.right[0] = -piece.condition_value / unit;
 }
 
@@ -487,11 +627,21 @@ bool OrbitEquations::set_right(std::size_t k, const Eigen::VectorXd& unknowns, c
     const std::size_t n = layout_.states(), place = layout_.start_of(k), segment = layout_.segment_of(k);
     const Eigen::Index duration = index(layout_.duration_of(k));
     std::vector<double> state(unknowns.data() + place, unknowns.data() + place + n);
-    if (flow_.run(modes_[segment], state, unknowns[duration]) != ModeFlow::Ending::done)
+    double condition = 0;
+    if (layout_.accumulates(k)) {
+        Accumulation::Remainder left;
+        std::vector<double> parameters = parameters_;
+        for (std::size_t f = 0; f < layout_.free(); ++f)
+            parameters[free()[f].place()] = unknowns[index(layout_.parameter(f))];
+        if (!accumulations_[segment]->evaluate(state, parameters, left))
+            return false;
+        state = numbers_of(left.state);
+        condition = unknowns[duration] - left.time;
+    } else if (flow_.run(modes_[segment], state, unknowns[duration]) != ModeFlow::Ending::done) {
         return false;
-    if (layout_.is_last(k)) {
-        double condition = 0;
-        if (!ends_.pass(segment, state, condition))
+    }
+    if (layout_.has_end(k)) {
+        if (!ends_.pass(segment, state, condition, passed_at(k)))
             return false;
         right[index(place)] = -condition / at.pieces[k].condition_unit;
     } else {
@@ -548,6 +698,10 @@ double OrbitEquations::typical_change(const OrbitEvaluation& at, const Eigen::Ve
 
 double OrbitEquations::typical_rate(const OrbitEvaluation& at, std::size_t segment) const {
     return typical_change(at, at.pieces[layout_.last_piece(segment)].condition);
+}
+
+double OrbitEquations::typical_rate_of_piece(const OrbitEvaluation& at, std::size_t piece) const {
+    return typical_change(at, at.pieces[piece].condition);
 }
 
 double OrbitEquations::typical_rate(const OrbitEvaluation& at, std::size_t segment, std::size_t event) const {

@@ -1,7 +1,12 @@
 #pragma once
 
+#include "orbit/accumulation.hpp"
 #include "orbit/orbit_scales.hpp"
 #include "orbit/segment_ends.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace graze {
 
@@ -13,7 +18,8 @@ inline constexpr double least_rate = 1e-11;
 /// whatever other events it passes, and the jump leads to the start of the next. The discretisation decides how a piece
 /// is followed: Shooting integrates it, Collocation solves for a polynomial.
 ///
-/// Long or expanding segments consist of several pieces, of which all but the last have a fixed duration. Drifting
+/// Long or expanding segments consist of several pieces, of which all but the last have a fixed duration. A complete
+/// chatter sequence consists of a piece for each contact that is resolved, and a last one for all others. Drifting
 /// states (periodic up to translation) and neutral states (returned unchanged, as a frame at rest) are held at their
 /// first values instead of being closed.
 class OrbitEquations {
@@ -99,6 +105,13 @@ public:
     /// Returns the typical size of this rate: the change of the end condition over the scales of the states, divided by
     /// the scale of time.
     double typical_rate(const OrbitEvaluation& at, std::size_t segment) const;
+    /// The same for the end of a piece that has an end condition.
+    double typical_rate_of_piece(const OrbitEvaluation& at, std::size_t piece) const;
+    /// True when other contacts of a chatter sequence should be resolved: the remaining ones are not slow enough to be
+    /// summed, or the last ones are so slow that round-off moves them.
+    bool contacts_need_renewal(const OrbitEvaluation& at) const;
+    /// True when a segment is a complete chatter sequence.
+    bool has_chatter() const;
     /// The same for the function of another event.
     double typical_rate(const OrbitEvaluation& at, std::size_t segment, std::size_t event) const;
     /// The normal of the plane in which the segment after a cut starts; empty for other ends.
@@ -116,6 +129,8 @@ protected:
     ModeFlow& flow() { return flow_; }
     SegmentEnds& ends() { return ends_; }
     OrbitScales& orbit_scales() { return orbit_scales_; }
+    /// The contacts of a chatter sequence of the orbit with which the equations were made.
+    const ChatterContacts& contacts(std::size_t segment) const { return contacts_[segment]; }
 
 private:
     static constexpr std::size_t many_inputs = 12;
@@ -132,9 +147,15 @@ private:
                        std::vector<double>& durations) const;
     double typical_change(const OrbitEvaluation& at, const Eigen::VectorXd& gradient) const;
     void set_parameters(const Eigen::VectorXd& unknowns, std::vector<double>& parameters);
+    void follow_contacts(const Orbit& orbit);
+    SegmentEnds::Passed passed_at(std::size_t piece) const;
+    double duration_of_segment(const Eigen::VectorXd& unknowns, std::size_t segment) const;
+    void set_contacts(const Orbit& orbit, std::size_t segment, Eigen::VectorXd& unknowns);
+    bool accumulate(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at);
     bool evaluate_piece(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at);
     void assemble(const Eigen::VectorXd& unknowns, OrbitEvaluation& at);
     void assemble_end(std::size_t k, OrbitEvaluation& at) const;
+    void assemble_accumulation(std::size_t k, OrbitEvaluation& at) const;
     void assemble_closure(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at,
                           std::vector<bool>& neutral) const;
     void drop_accidentally_neutral(const OrbitEvaluation& at, std::vector<bool>& neutral);
@@ -151,9 +172,12 @@ private:
     OrbitLayout layout_;
     OrbitScales orbit_scales_;
     Eigen::VectorXd scales_;
-    std::vector<double> fixed_durations_; ///< of the pieces
-    std::vector<double> parameters_;      ///< all parameters; those that are not free are constant
-    std::vector<double> reference_;       ///< state at which drifting and neutral states are held
+    std::vector<std::optional<Accumulation>> accumulations_; ///< of the segments that are chatter sequences
+    std::vector<ChatterContacts> contacts_;                  ///< of the same, when the equations were made
+    std::string contacts_problem_;                           ///< why the contacts of the last orbit do not accumulate
+    std::vector<double> fixed_durations_;                    ///< of the pieces
+    std::vector<double> parameters_;                         ///< all parameters; those that are not free are constant
+    std::vector<double> reference_;                          ///< state at which drifting and neutral states are held
 };
 
 } // namespace graze

@@ -5,6 +5,8 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace graze {
 
@@ -13,13 +15,16 @@ namespace graze {
 ///
 ///     (x_0, T_0, x_1, T_1, ..., inner unknowns, free parameters).
 ///
+/// The pieces of a complete chatter sequence end with its contacts, the last one at the accumulation.
 /// Inner unknowns are states within the pieces, as in collocation; shooting has none.
 class OrbitLayout {
 public:
     /// @param counts number of pieces of each segment, at least one; @param inner number of inner unknowns of each
     /// piece
-    OrbitLayout(std::size_t states, const std::vector<std::size_t>& counts, std::size_t inner, std::size_t free)
-        : states_(states), inner_(inner), free_(free) {
+    OrbitLayout(std::size_t states, const std::vector<std::size_t>& counts, std::size_t inner, std::size_t free,
+                std::vector<bool> chatter = {})
+        : states_(states), inner_(inner), free_(free), chatter_(std::move(chatter)) {
+        chatter_.resize(counts.size(), false);
         for (const std::size_t count : counts) {
             first_.push_back(segments_.size());
             segments_.insert(segments_.end(), count, first_.size() - 1);
@@ -46,8 +51,17 @@ public:
     }
     bool is_last(std::size_t piece) const { return last_piece(segments_[piece]) == piece; }
 
+    bool is_chatter(std::size_t segment) const { return chatter_[segment]; }
+    /// True when the piece takes in all contacts that are left of a chatter sequence.
+    bool accumulates(std::size_t piece) const { return is_last(piece) && chatter_[segments_[piece]]; }
+    /// True when the piece ends with a contact within a chatter sequence.
+    bool is_contact(std::size_t piece) const { return !is_last(piece) && chatter_[segments_[piece]]; }
+    /// True when an end condition determines the duration of the piece; otherwise it is fixed.
+    bool has_end(std::size_t piece) const { return is_last(piece) || chatter_[segments_[piece]]; }
+
 private:
     std::size_t states_, inner_, free_;
+    std::vector<bool> chatter_; ///< of each segment
     std::vector<std::size_t> first_, segments_;
 };
 
@@ -70,6 +84,9 @@ struct OrbitEvaluation {
         Eigen::VectorXd condition;  ///< gradient of the end condition, for the last piece of a segment: states + free
         double condition_value = 0; ///< value of the end condition, zero on the orbit
         double condition_unit = 1;  ///< unit by which the row of the condition is divided
+        /// Of a piece that takes in all contacts that are left: derivatives of its duration with respect to the states
+        /// at its start and the free parameters. Its `flow` contains the change of this time, and `condition` is zero.
+        Eigen::VectorXd time_by;
     };
 
     Eigen::VectorXd unknowns; ///< unknowns of the evaluation; empty when it failed, and `problem` says why

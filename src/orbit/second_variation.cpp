@@ -14,6 +14,8 @@ SecondVariation::SecondVariation(const OrbitEquations& equations)
 
 bool SecondVariation::contract(const OrbitEquations& equations, const OrbitEvaluation& at, const Eigen::MatrixXd& left,
                                const Eigen::VectorXd& right, Eigen::MatrixXd& gradients) {
+    if (equations.has_chatter()) // second derivatives of the time and state of accumulation are not known
+        return false;
     const OrbitLayout& layout = equations.layout();
     const auto n = index(states_), q = index(free_);
     gradients = Eigen::MatrixXd::Zero(left.cols(), index(layout.unknowns()));

@@ -15,8 +15,8 @@ SegmentEnds::SegmentEnds(const System& system, const Orbit& orbit, std::vector<P
     for (std::size_t k = 0; k < signature_.size(); ++k) {
         const Segment& segment = signature_[k];
         EndFunction end;
-        if (segment.end == SegmentEnd::event) {
-            end.value = &system_.event(system_.model().transitions[segment.index].event);
+        if (const Transition* const transition = transition_of(system_.model(), segment)) {
+            end.value = &system_.event(transition->event);
         } else if (segment.end == SegmentEnd::cut) {
             end.normal = end.through = Eigen::VectorXd::Zero(index(n_)); // until lay_cuts
         } else {
@@ -97,12 +97,29 @@ void SegmentEnds::field(std::size_t segment, std::span<const double> state, Eige
     system_.mode(signature_[segment].mode).rates.evaluate(inputs_, {result.data(), n_}, work_);
 }
 
-bool SegmentEnds::pass(std::size_t k, OrbitEvaluation::Piece& piece) {
+const Function* SegmentEnds::condition_of(std::size_t k, Passed passed) const {
+    return passed == Passed::end && signature_[k].end == SegmentEnd::chatter ? nullptr : ends_[k].value;
+}
+
+std::vector<const System::CompiledJump*> SegmentEnds::jumps_of(std::size_t k, Passed passed) const {
+    std::vector<const System::CompiledJump*> jumps;
+    const Segment& segment = signature_[k];
+    const Transition* const transition = transition_of(system_.model(), segment);
+    if (transition && segment.end == SegmentEnd::chatter && passed == Passed::end)
+        jumps.push_back(&system_.jump(transition->chatter->jump));
+    else if (transition)
+        jumps.push_back(&system_.jump(transition->jump));
+    if (symmetry_ && k + 1 == signature_.size() && passed == Passed::end)
+        jumps.push_back(&system_.symmetry(*symmetry_));
+    return jumps;
+}
+
+bool SegmentEnds::pass(std::size_t k, OrbitEvaluation::Piece& piece, Passed passed) {
     std::ranges::copy(piece.end, inputs_.begin());
     const EndFunction& end = ends_[k];
-    if (end.value) {
-        const std::span<double> values = std::span(values_).first(end.value->outputs());
-        end.value->evaluate(inputs_, values, work_);
+    if (const Function* const condition = condition_of(k, passed)) {
+        const std::span<double> values = std::span(values_).first(condition->outputs());
+        condition->evaluate(inputs_, values, work_);
         piece.condition_value = values[0];
         piece.condition = gradient_of(values);
     }
@@ -111,34 +128,26 @@ bool SegmentEnds::pass(std::size_t k, OrbitEvaluation::Piece& piece) {
         piece.condition_value -= turns * periods_[end.state];
         piece.condition.tail(index(free_.size())) -= turns * period_rates_.row(index(end.state)).transpose();
     }
-    const Segment& segment = signature_[k];
-    if (segment.end == SegmentEnd::event)
-        apply(system_.jump(system_.model().transitions[segment.index].jump), piece);
-    if (symmetry_ && k + 1 == signature_.size())
-        apply(system_.symmetry(*symmetry_), piece);
+    for (const System::CompiledJump* const jump : jumps_of(k, passed))
+        apply(*jump, piece);
     if (!end.value)
         pass_cut(end, piece);
     return std::ranges::all_of(piece.after, [](double value) { return std::isfinite(value); });
 }
 
-bool SegmentEnds::pass(std::size_t k, std::vector<double>& state, double& condition) {
+bool SegmentEnds::pass(std::size_t k, std::vector<double>& state, double& condition, Passed passed) {
     std::ranges::copy(state, inputs_.begin());
     const EndFunction& end = ends_[k];
-    if (end.value) {
-        const std::span<double> values = std::span(values_).first(end.value->outputs());
-        end.value->evaluate(inputs_, values, work_);
+    if (const Function* const function = condition_of(k, passed)) {
+        const std::span<double> values = std::span(values_).first(function->outputs());
+        function->evaluate(inputs_, values, work_);
         condition = end.cyclic ? without_turns(values[0], periods_[end.state]) : values[0];
     }
-    const auto apply = [&](const System::CompiledJump& map) {
+    for (const System::CompiledJump* const jump : jumps_of(k, passed)) {
         std::ranges::copy(state, inputs_.begin());
-        if (!map.identity)
-            map.map.evaluate(inputs_, state, work_);
-    };
-    const Segment& segment = signature_[k];
-    if (segment.end == SegmentEnd::event)
-        apply(system_.jump(system_.model().transitions[segment.index].jump));
-    if (symmetry_ && k + 1 == signature_.size())
-        apply(system_.symmetry(*symmetry_));
+        if (!jump->identity)
+            jump->map.evaluate(inputs_, state, work_);
+    }
     if (!end.value)
         condition = off_cut(end, state, nullptr);
     return std::ranges::all_of(state, [](double value) { return std::isfinite(value); });

@@ -35,23 +35,32 @@ public:
 
     /// Evaluates the vector field of a segment's mode at a state.
     void field(std::size_t segment, std::span<const double> state, Eigen::VectorXd& result);
-    /// Sets end condition, jump and state after it, with derivatives, from the end of a segment's last piece. @return
-    /// false where the jump is not defined
-    bool pass(std::size_t segment, OrbitEvaluation::Piece& piece);
+    /// Which end of a segment is passed: its own, or a contact within a chatter sequence.
+    enum class Passed { end, contact };
+    /// Sets end condition, jump and state after it, with derivatives, from the end of a segment's last piece. Where
+    /// contacts accumulate there is no end condition: the accumulation is known. @return false where the jump is not
+    /// defined
+    bool pass(std::size_t segment, OrbitEvaluation::Piece& piece, Passed passed = Passed::end);
     /// The same without derivatives. @param state at the end of the segment; replaced by the state after the jump
     /// @param condition value of the end condition, zero on the orbit
-    bool pass(std::size_t segment, std::vector<double>& state, double& condition);
+    bool pass(std::size_t segment, std::vector<double>& state, double& condition, Passed passed = Passed::end);
     /// Returns the gradient with respect to states and free parameters, from values in the order of
     /// System::with_gradient.
     Eigen::VectorXd gradient_of(std::span<const double> values) const;
 
 private:
     struct EndFunction {
-        const Function* value = nullptr; ///< value and gradient of the condition, owned by the system; null for a cut
-        bool cyclic = false;             ///< phase section: the condition holds up to whole periods of `state`
+        /// Value and gradient of the condition, owned by the system; null for a cut. Of a chatter sequence it is that
+        /// of its contacts.
+        const Function* value = nullptr;
+        bool cyclic = false; ///< phase section: the condition holds up to whole periods of `state`
         std::size_t state = 0;
         Eigen::VectorXd normal, through; ///< plane of a cut, in the state space of the next segment
     };
+    /// The condition that is met; null: there is none, or it is a plane.
+    const Function* condition_of(std::size_t segment, Passed passed) const;
+    /// The jumps made there, one after another.
+    std::vector<const System::CompiledJump*> jumps_of(std::size_t segment, Passed passed) const;
     void apply(const System::CompiledJump& map, OrbitEvaluation::Piece& piece);
     double off_cut(const EndFunction& end, std::span<const double> after, Eigen::VectorXd* turns) const;
     void pass_cut(const EndFunction& end, OrbitEvaluation::Piece& piece) const;

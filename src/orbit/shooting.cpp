@@ -51,12 +51,28 @@ void Shooting::note_jump(std::size_t segment, const std::vector<double>& end) {
         orbit_scales().note_coupling(piece.jump.leftCols(n));
 }
 
+/// Records the flights of a chatter sequence, which are not split further.
+void Shooting::note_contacts(std::size_t segment, StateScales& sizes) {
+    const ChatterContacts& found = contacts(segment);
+    Eigen::MatrixXd derivatives;
+    for (std::size_t i = 0; i < found.durations.size(); ++i) {
+        std::vector<double> state = found.starts[i];
+        if (found.problem.empty() &&
+            run_recorded(signature()[segment].mode, state, found.durations[i], derivatives, sizes))
+            sizes.note(state);
+    }
+}
+
 /// Returns the number of pieces of each segment, from the growth of the scaled derivatives along it.
 std::vector<std::size_t> Shooting::split(const Orbit& orbit) {
     StateScales sizes(layout().states());
     sizes.begin();
     std::vector<Eigen::MatrixXd> derivatives(orbit.segments());
     for (std::size_t s = 0; s < orbit.segments(); ++s) {
+        if (orbit.signature[s].end == SegmentEnd::chatter) {
+            note_contacts(s, sizes);
+            continue;
+        }
         std::vector<double> state = orbit.starts[s];
         if (!(orbit.durations[s] > 0) ||
             !run_recorded(orbit.signature[s].mode, state, orbit.durations[s], derivatives[s], sizes))
@@ -66,7 +82,12 @@ std::vector<std::size_t> Shooting::split(const Orbit& orbit) {
     const std::vector<double> chosen = sizes.choose(ends().periods(), orbit_scales().coupling(), orbit_scales().arcs());
     const Eigen::Map<const Eigen::VectorXd> units = vector_of(chosen);
     std::vector<std::size_t> counts;
-    for (const Eigen::MatrixXd& one : derivatives) {
+    for (std::size_t s = 0; s < orbit.segments(); ++s) {
+        const Eigen::MatrixXd& one = derivatives[s];
+        if (orbit.signature[s].end == SegmentEnd::chatter) {
+            counts.push_back(contacts(s).problem.empty() ? contacts(s).starts.size() : 1);
+            continue;
+        }
         std::size_t count = 1;
         if (one.size() > 0) {
             const Eigen::MatrixXd scaled = units.cwiseInverse().asDiagonal() * one * units.asDiagonal();

@@ -22,6 +22,7 @@ private:
     std::vector<std::size_t> split(const Orbit& orbit);
     bool run_recorded(std::size_t mode, std::span<double> state, double duration, Eigen::MatrixXd& derivatives,
                       StateScales& sizes);
+    void note_contacts(std::size_t segment, StateScales& sizes);
     void note_jump(std::size_t segment, const std::vector<double>& end);
     bool follow(std::size_t piece, const Eigen::VectorXd& unknowns, OrbitEvaluation& at) override;
 };

@@ -30,6 +30,11 @@ bool is_rest(const Signature& signature) {
     return signature.size() == 1 && signature.front().end == SegmentEnd::rest;
 }
 
+const std::string& chatter_mark() {
+    static const std::string mark = "*";
+    return mark;
+}
+
 namespace {
 
 constexpr std::size_t most_segments = 100000;
@@ -91,7 +96,7 @@ public:
 private:
     static bool is_name(char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == ':' ||
-               c == cut_name().front();
+               c == cut_name().front() || c == chatter_mark().front();
     }
     void skip() {
         while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == ',' || text_[at_] == '\t'))
@@ -130,6 +135,14 @@ std::vector<Segment> candidates(const Model& model, const std::string& name) {
     if (colon != std::string::npos)
         mode = model.find_mode(name.substr(0, colon));
     const std::string rest = mode ? name.substr(colon + 1) : name;
+    if (name.ends_with(chatter_mark())) {
+        for (Segment& segment : candidates(model, name.substr(0, name.size() - chatter_mark().size())))
+            if (segment.end == SegmentEnd::event && model.transitions[segment.index].chatter) {
+                segment.end = SegmentEnd::chatter;
+                result.push_back(segment);
+            }
+        return result;
+    }
     for (std::size_t t = 0; t < model.transitions.size(); ++t) {
         const Transition& transition = model.transitions[t];
         if (transition.label == name ||
@@ -152,6 +165,8 @@ std::vector<Segment> candidates(const Model& model, const std::string& name) {
 bool can_follow(const Model& model, const Segment& before, const Segment& after) {
     if (before.end == SegmentEnd::rest || after.end == SegmentEnd::rest)
         return before == after;
+    if (before.end == SegmentEnd::chatter)
+        return model.transitions[before.index].chatter->mode == after.mode;
     return before.end == SegmentEnd::event ? can_lead_to(model.transitions[before.index], after.mode)
                                            : before.mode == after.mode;
 }
@@ -223,17 +238,22 @@ bool can_lead_to(const Transition& transition, std::size_t mode) {
                                [&](const Alternative& alternative) { return alternative.mode == mode; });
 }
 
-const std::string& end_name(const Model& model, const Segment& segment) {
+const Transition* transition_of(const Model& model, const Segment& segment) {
+    if (!ends_by_transition(segment))
+        return nullptr;
+    require_index(segment.index, model.transitions.size(), "transition");
+    return &model.transitions[segment.index];
+}
+
+std::string end_name(const Model& model, const Segment& segment) {
     if (segment.end == SegmentEnd::cut)
         return cut_name();
     if (segment.end == SegmentEnd::rest)
         return rest_name();
-    if (segment.end == SegmentEnd::event)
-        require_index(segment.index, model.transitions.size(), "transition");
-    else
-        require_index(segment.index, model.sections.size(), "section");
-    return segment.end == SegmentEnd::event ? model.transitions[segment.index].label
-                                            : model.sections[segment.index].name;
+    if (const Transition* const transition = transition_of(model, segment))
+        return segment.end == SegmentEnd::chatter ? transition->label + chatter_mark() : transition->label;
+    require_index(segment.index, model.sections.size(), "section");
+    return model.sections[segment.index].name;
 }
 
 Signature parse_signature(const Model& model, std::string_view text, const Place& place) {
@@ -244,6 +264,10 @@ Signature parse_signature(const Model& model, std::string_view text, const Place
         places.push_back(candidates(model, name.text));
         if (!places.back().empty())
             continue;
+        if (name.text.ends_with(chatter_mark()) &&
+            !candidates(model, name.text.substr(0, name.text.size() - 1)).empty())
+            reader.fail(fmt::format("the model does not say what follows where contacts accumulate ('{}')", name.text),
+                        "give the transition `chatter = { jump = ..., mode = ... }`", name.column);
         std::vector<std::string> known;
         for (const Transition& transition : model.transitions)
             known.push_back(transition.label);
@@ -278,7 +302,7 @@ std::string to_string(const Model& model, const Signature& signature) {
     std::vector<std::string> names;
     for (const Segment& segment : signature) {
         require_index(segment.mode, model.modes.size(), "mode");
-        const std::string& name = end_name(model, segment);
+        const std::string name = end_name(model, segment);
         const std::size_t meanings = segment.end == SegmentEnd::section ? 1 : candidates(model, name).size();
         names.push_back(
             meanings > 1 && name.find(':') == std::string::npos ? model.modes[segment.mode].name + ":" + name : name);
@@ -304,18 +328,24 @@ void validate_signature(const Model& model, const Signature& signature, const Pl
     if (symmetry)
         require_index(*symmetry, model.symmetries.size(), "symmetry");
     for (const Segment& segment : signature) {
-        if (segment.end != SegmentEnd::event && segment.end != SegmentEnd::section && segment.end != SegmentEnd::cut &&
+        const bool contact = ends_by_transition(segment);
+        if (!contact && segment.end != SegmentEnd::section && segment.end != SegmentEnd::cut &&
             segment.end != SegmentEnd::rest)
             throw InputError(place, "a segment has no end", "let an event or a section end it");
         if (segment.end == SegmentEnd::rest && (signature.size() > 1 || symmetry))
             throw InputError(place, "an equilibrium is the only segment of its signature, without a symmetry",
                              "give it alone");
-        const std::size_t ends = segment.end == SegmentEnd::event     ? model.transitions.size()
+        const std::size_t ends = contact                              ? model.transitions.size()
                                  : segment.end == SegmentEnd::section ? model.sections.size()
                                                                       : 1;
         const bool known = segment.index < ends;
+        if (known && segment.end == SegmentEnd::chatter && !model.transitions[segment.index].chatter)
+            throw InputError(place,
+                             fmt::format("the transition '{}' does not say what follows where its contacts accumulate",
+                                         model.transitions[segment.index].label),
+                             "give it `chatter = { jump = ..., mode = ... }` in the model");
         if (!known || segment.mode >= model.modes.size() ||
-            (segment.end == SegmentEnd::event && model.transitions[segment.index].mode != segment.mode))
+            (contact && model.transitions[segment.index].mode != segment.mode))
             throw InputError(place, "the signature has a segment that the model does not have",
                              "read it by parse_signature");
     }

@@ -18,6 +18,7 @@ namespace graze {
 
 namespace {
 
+constexpr double smallest_size = 1e-250;    ///< below which ratios leave the range of numbers
 constexpr double round_off_of_rank = 1e-13; ///< relative size of pivots that are zero
 
 /// Newton's method for the equations of an equilibrium.
@@ -119,6 +120,30 @@ Orbit orbit_of_rest(std::size_t mode, std::vector<double> state, std::vector<dou
 
 namespace {
 
+/// Returns the scale of a state by how it moves those with known scales within a time. @return infinity if it moves
+/// none
+double scale_by_effect(std::size_t i, const Eigen::MatrixXd& field, const Eigen::VectorXd& scales,
+                       const std::vector<bool>& known, double fastest) {
+    double scale = infinity;
+    for (std::size_t j = 0; j < known.size(); ++j)
+        if (const double acts = std::abs(field(index(j), index(i))); j != i && known[j] && acts > 0)
+            scale = std::min(scale, scales[index(j)] * fastest / acts);
+    return scale;
+}
+
+/// Returns the linearised field beside a state: at the state itself, such as a fold, an effect of one state on another
+/// may vanish that tells their scales.
+Eigen::MatrixXd typical_field(const EquilibriumEquations& equations, std::span<const double> state,
+                              std::span<const double> parameters) {
+    constexpr double aside = 0.06;
+    std::vector<double> beside(state.begin(), state.end());
+    for (const std::size_t i : equations.active())
+        beside[i] *= 1 + aside * std::cos(static_cast<double>(i + 1));
+    const Eigen::MatrixXd field = equations.jacobian(beside, parameters).leftCols(equations.size());
+    return field.allFinite() ? field
+                             : Eigen::MatrixXd(equations.jacobian(state, parameters).leftCols(equations.size()));
+}
+
 /// Completes the scales of states that have none, such as the velocity of a body at rest: each moves a state with a
 /// scale by that scale within the time of the fastest eigenvalue, or is moved so. @param known whether a state has a
 /// scale
@@ -126,21 +151,27 @@ void complete_scales(const Eigen::MatrixXd& field, Eigen::VectorXd& scales, std:
     double fastest = 0;
     if (const auto values = field.allFinite() ? eigenvalues(field) : std::nullopt)
         fastest = values->cwiseAbs().maxCoeff();
+    // A state that is only round-off of zero has no scale either.
+    constexpr double round_off = 1e-10;
+    const std::vector<bool> sized = known;
+    for (std::size_t i = 0; i < known.size(); ++i) {
+        const double effect = known[i] ? scale_by_effect(i, field, scales, sized, fastest) : infinity;
+        known[i] = known[i] && !(std::isfinite(effect) && scales[index(i)] < round_off * effect);
+    }
     if (std::ranges::none_of(known, std::identity()))
         known[0] = true; // only ratios of scales matter
     for (bool found = true; found && fastest > 0;) {
         found = false;
         for (std::size_t i = 0; i < known.size(); ++i) {
-            double acts = infinity, is_moved = 0;
-            for (std::size_t j = 0; j < known.size() && !known[i]; ++j) {
-                if (!known[j])
-                    continue;
-                const double by = std::abs(field(index(j), index(i))), of = std::abs(field(index(i), index(j)));
-                acts = by > 0 ? std::min(acts, scales[index(j)] * fastest / by) : acts;
-                is_moved = std::max(is_moved, of * scales[index(j)] / fastest);
-            }
+            if (known[i])
+                continue;
+            const double acts = scale_by_effect(i, field, scales, known, fastest);
+            double is_moved = 0;
+            for (std::size_t j = 0; j < known.size(); ++j)
+                if (known[j])
+                    is_moved = std::max(is_moved, std::abs(field(index(i), index(j))) * scales[index(j)] / fastest);
             const double scale = std::isfinite(acts) ? acts : is_moved;
-            if (known[i] || !(scale > 0) || !std::isfinite(scale))
+            if (!(scale > 0) || !std::isfinite(scale))
                 continue;
             scales[index(i)] = scale;
             known[i] = found = true;
@@ -159,11 +190,11 @@ Eigen::VectorXd scales_of_equilibrium(const EquilibriumEquations& equations, std
         const std::size_t i = equations.active()[k];
         const double hint = hints.empty() ? 0 : std::abs(hints[i]);
         const double size = periods[i] > 0 ? periods[i] : std::max(std::abs(state[i]), hint);
-        known[k] = size > 0 && std::isfinite(size);
+        known[k] = size > smallest_size && std::isfinite(size);
         scales[index(k)] = known[k] ? size : 1;
     }
-    if (std::ranges::find(known, false) != known.end())
-        complete_scales(equations.jacobian(state, parameters).leftCols(equations.size()), scales, known);
+    if (!known.empty())
+        complete_scales(typical_field(equations, state, parameters), scales, known);
     return scales;
 }
 
@@ -185,6 +216,12 @@ std::vector<std::complex<double>> eigenvalues_at(const EquilibriumEquations& equ
     std::vector<std::complex<double>> sorted;
     if (found)
         sorted.assign(found->begin(), found->end());
+    for (const double added : equations.added_eigenvalues()) {
+        const auto distance = [added](std::complex<double> one) { return std::abs(one - added); };
+        const auto nearest = std::ranges::min_element(sorted, {}, distance);
+        if (nearest != sorted.end())
+            sorted.erase(nearest);
+    }
     std::ranges::stable_sort(sorted, [](const auto& a, const auto& b) {
         return a.real() != b.real() ? a.real() > b.real() : a.imag() > b.imag();
     });

@@ -42,7 +42,7 @@ nlohmann::json orbit_motion_json(const StoredRun& run, const OrbitRecord& record
     bool complete = true;
     const std::vector<bool> marked = usual_marks(model);
     const auto ends_at_contact = [&](const Segment& segment) {
-        return segment.end == SegmentEnd::event && marked.at(model.transitions.at(segment.index).event);
+        return ends_by_transition(segment) && marked.at(model.transitions.at(segment.index).event);
     };
     const std::vector<SegmentMotion> segments = orbit_motion(run.model, orbit, samples_of_orbit);
     for (std::size_t s = 0; s < segments.size(); ++s) {

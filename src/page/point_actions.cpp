@@ -173,7 +173,7 @@ private:
         const Orbit& orbit = origin_.orbit->point.solution.orbit;
         // The image of an orbit that ends at a section does not end there.
         if (!origin_.model.symmetries.empty() && !orbit.symmetry && !orbit.signature.empty() &&
-            orbit.signature.back().end == SegmentEnd::event)
+            ends_by_transition(orbit.signature.back()))
             add("twin", "Symmetric image", "the branch of the symmetric image of this orbit", 1, "twin");
     }
 

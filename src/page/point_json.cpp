@@ -113,8 +113,9 @@ nlohmann::json plain_point_json(const StoredRun& run, const PointRecord& point) 
                        {"error", nullptr},
                        {"signature", point.result.signature}};
     one["coordinates"] = valued_json(run, run.record.coordinates, point.coordinates);
-    for (const char* list : {"parameters", "values", "half_multipliers", "eigenvalues", "tables", "facts"})
+    for (const char* list : {"parameters", "values", "half_multipliers", "tables", "facts"})
         one[list] = nlohmann::json::array();
+    one["eigenvalues"] = multipliers_json(point.result.eigenvalues);
     one["multipliers"] = multipliers_json(point.result.multipliers);
     return one;
 }

@@ -160,7 +160,7 @@ public:
     std::vector<PlanePoint> events(const Signature& signature) const {
         std::vector<PlanePoint> points;
         for (std::size_t s = 0; s < std::min(signature.size(), orbit_.motion.size()); ++s)
-            if (signature[s].end == SegmentEnd::event && !orbit_.motion[s].times.empty())
+            if (ends_by_transition(signature[s]) && !orbit_.motion[s].times.empty())
                 points.push_back(at(s, orbit_.motion[s].times.size() - 1));
         return points;
     }

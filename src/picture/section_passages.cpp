@@ -35,7 +35,8 @@ public:
 SectionPassages::SectionPassages(const Model& model, const std::string& section, const NamedValue& value)
     : system_(model), section_(model.find_section(section).value_or(model.sections.size())),
       simulation_(system_.without_events(), {section_probe(model, section)}, {}, options_of_orbits()),
-      jets_(simulation_, LaneKind::single), evaluate_(model, {value}) {}
+      jets_(simulation_, LaneKind::single), arcs_of_(Simulation(system_, {}, {}, options_of_orbits())),
+      evaluate_(model, {value}) {}
 
 std::vector<double> SectionPassages::of(const Orbit& orbit) {
     const Orbit whole = whole_orbit(system_, orbit);
@@ -57,11 +58,18 @@ void SectionPassages::follow(const Orbit& orbit, std::size_t segment, double nea
     if (!(duration > 0) || !std::isfinite(duration))
         return;
     PassageTimes passages;
-    Trajectory trajectory(simulation_, orbit.parameters, borrowed(passages));
-    trajectory.start(orbit.starts[segment], one.mode, 0, duration);
-    run(trajectory, jets_);
+    const SegmentArcs arcs = arcs_of_(orbit, segment);
+    std::vector<double> begins; // of the arcs in which the passages lie
+    double begin = 0;
+    for (std::size_t i = 0; i < arcs.starts.size(); ++i) {
+        Trajectory trajectory(simulation_, orbit.parameters, borrowed(passages));
+        trajectory.start(arcs.starts[i], one.mode, 0, arcs.durations[i]);
+        run(trajectory, jets_);
+        begins.resize(passages.times.size(), begin);
+        begin += arcs.durations[i];
+    }
     for (std::size_t i = 0; i < passages.times.size(); ++i) {
-        const double time = passages.times[i];
+        const double time = begins[i] + passages.times[i];
         if (!(ends_at_section(before) && time < near) && !(ends_at_section(one) && time > duration - near))
             values.push_back(value_at(passages.states[i]));
     }

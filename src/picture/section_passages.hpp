@@ -4,6 +4,7 @@
 #include "graze/results/quantity_evaluator.hpp"
 #include "graze/trajectory/jet_set.hpp"
 #include "graze/trajectory/simulation.hpp"
+#include "orbit/segment_arcs.hpp"
 
 #include <string>
 #include <vector>
@@ -29,6 +30,7 @@ private:
     std::size_t section_;
     Simulation simulation_;
     JetSet jets_;
+    SegmentArcsFinder arcs_of_;
     QuantityEvaluator evaluate_;
 };
 

@@ -48,9 +48,10 @@ std::vector<ModelWarning> motion_warnings(const System& system) {
     run(trajectory, jets);
     const Outcome& outcome = trajectory.outcome();
     const bool wrong = outcome.ending == Ending::inadmissible || outcome.ending == Ending::no_separation ||
-                       outcome.ending == Ending::no_progress || outcome.ending == Ending::no_transition;
+                       outcome.ending == Ending::no_progress || outcome.ending == Ending::no_transition ||
+                       outcome.ending == Ending::two_fold;
     // An inadmissible initial state already has a warning of located_warnings.
-    if (!wrong || (outcome.ending == Ending::inadmissible && outcome.time == 0))
+    if (!wrong || (outcome.time == 0 && outcome.detail.find("is already violated") != std::string::npos))
         return {};
     ModelWarning warning{
         "", fmt::format("the motion from the initial state ends at time {:.6g}: {}", outcome.time, outcome.detail)};

@@ -77,6 +77,15 @@ std::string model_listing(const Model& model) {
                     "transitions (mode: event / jump -> next mode)");
     for (const Transition& item : model.transitions)
         listing.row({item.label, transition_text(model, item)});
+    listing.heading(model.slides.size(), "slide", "slides");
+    for (const Slide& item : model.slides) {
+        listing.row({item.name, slide_text(model, item), item.text});
+        for (const std::string& rate : sliding_rates(model, item))
+            listing.row({"", rate});
+    }
+    listing.heading(model.frictions.size(), "friction", "frictions");
+    for (const Friction& item : model.frictions)
+        listing.row({item.name, friction_text(item), item.text});
     listing.heading(model.sections.size(), "section", "sections");
     for (const Section& item : model.sections)
         listing.row({item.name, section_text(model, item), item.text});

@@ -36,6 +36,13 @@ Table model_table(const Model& model) {
             table.add("jump", item.name, "", "", item.text);
     for (const Transition& item : model.transitions)
         table.add("transition", item.label, transition_text(model, item), "", "");
+    for (const Slide& item : model.slides) {
+        table.add("slide", item.name, slide_text(model, item), "", item.text);
+        for (const std::string& rate : sliding_rates(model, item))
+            table.add("rate of a slide", item.name, rate, "", "");
+    }
+    for (const Friction& item : model.frictions)
+        table.add("friction", item.name, friction_text(item), "", item.text);
     for (const Section& item : model.sections)
         table.add("section", item.name, section_text(model, item), "", item.text);
     for (const Symmetry& item : model.symmetries) {

@@ -4,6 +4,7 @@
 #include "graze/symbolic/function.hpp"
 #include "graze/trajectory/recorder.hpp"
 #include "graze/trajectory/trajectory.hpp"
+#include "orbit/segment_arcs.hpp"
 
 #include <fmt/format.h>
 
@@ -101,6 +102,9 @@ std::vector<SegmentMotion> orbit_motion(const Model& model, const Orbit& orbit, 
     const Model there = model_at(model, orbit);
     std::size_t left = most_steps_of_orbit;
     SmoothMotion forwards(there, false, left);
+    SimulationOptions options;
+    options.tolerance = orbit_tolerance;
+    SegmentArcsFinder arcs_of(Simulation(System(there), {}, {}, options));
     double whole = 0, time = 0;
     for (const double duration : orbit.durations)
         whole += std::abs(duration);
@@ -122,6 +126,22 @@ std::vector<SegmentMotion> orbit_motion(const Model& model, const Orbit& orbit, 
         } else if (duration == 0) {
             receive(0, orbit.starts[s]);
             receive(0, orbit.starts[s]);
+        } else if (duration > 0 && orbit.signature[s].end == SegmentEnd::chatter) {
+            const SegmentArcs arcs = arcs_of(orbit, s);
+            segment.problem = arcs.problem;
+            double flown = 0;
+            for (std::size_t i = 0; i + 1 < arcs.starts.size() && segment.problem.empty(); ++i) {
+                const auto parts = static_cast<std::size_t>(
+                    std::max(1.0, std::round(arcs.durations[i] / duration * static_cast<double>(intervals))));
+                segment.problem = forwards.follow(
+                    arcs.starts[i], segment.mode, arcs.durations[i], parts,
+                    [&](double since, std::span<const double> state) { receive(flown + since, state); });
+                flown += arcs.durations[i];
+            }
+            if (segment.problem.empty()) {
+                receive(flown, arcs.starts.back());
+                receive(duration, arcs.end.empty() ? arcs.starts.back() : arcs.end);
+            }
         } else if (duration > 0) {
             segment.problem = forwards.follow(orbit.starts[s], segment.mode, duration, intervals, receive);
         } else {

@@ -40,9 +40,10 @@ Segment segment_named(const Model& model, const std::string& mode, const std::st
         throw_contradiction(path, fmt::format("the model has no mode '{}'", mode));
     segment.mode = *known;
     for (std::size_t t = 0; t < model.transitions.size(); ++t)
-        if (model.transitions[t].mode == segment.mode && model.transitions[t].label == end) {
-            segment.index = t;
-            return segment;
+        for (const SegmentEnd kind : {SegmentEnd::event, SegmentEnd::chatter}) {
+            const Segment one{segment.mode, kind, t};
+            if (model.transitions[t].mode == one.mode && end_name(model, one) == end)
+                return one;
         }
     if (end == cut_name()) {
         segment.end = SegmentEnd::cut;

@@ -65,7 +65,8 @@ public:
     PointReader(const Database& database, const std::string& path, const RunRecord& run, const std::string& which)
         : path_(path), run_(&run), tables_(run), points_(database.prepare(tables_.select_point() + which)),
           samples_(database.prepare(tables_.select_sample() + " WHERE rowid >= ?1 AND rowid < ?2 ORDER BY rowid")),
-          multipliers_(database, "multipliers", multiplier_columns(), run) {
+          multipliers_(database, "multipliers", multiplier_columns(), run),
+          eigenvalues_(database, "eigenvalues", multiplier_columns(), run) {
         require_columns(points_, tables_.point_columns.size(), path_);
         require_columns(samples_, tables_.sample_columns.size(), path_);
     }
@@ -79,6 +80,7 @@ public:
         PointRecord point = read_point(points_, *run_);
         read_samples(point.number, point.result.samples);
         point.result.multipliers = multipliers_.of_point(*run_, point.number);
+        point.result.eigenvalues = eigenvalues_.of_point(*run_, point.number);
         return point;
     }
 
@@ -104,7 +106,7 @@ private:
     const RunRecord* run_;
     RunTables tables_;
     Statement points_, samples_;
-    DetailReader<RunRecord, std::complex<double>> multipliers_;
+    DetailReader<RunRecord, std::complex<double>> multipliers_, eigenvalues_;
 };
 
 } // namespace
@@ -118,6 +120,7 @@ void ResultFile::add_point(const std::string& name, const PointRecord& point) {
         write_row(writer.point, point_columns(), run, point);
         write_samples(writer.sample, run, point);
         write_details(writer.multiplier, multiplier_columns(), run, run, point.number, point.result.multipliers);
+        write_details(writer.eigenvalue, multiplier_columns(), run, run, point.number, point.result.eigenvalues);
         state_->commit_when_due();
     } catch (...) {
         state_->sqlite_rollback();

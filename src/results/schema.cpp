@@ -122,7 +122,7 @@ const std::vector<DetailTable>& detail_tables() {
     static const std::vector<DetailTable> tables{
         {"multipliers", kinds_of(multiplier_columns()), false, true},
         {"half_multipliers", kinds_of(multiplier_columns()), true, true},
-        {"eigenvalues", kinds_of(multiplier_columns()), true, true},
+        {"eigenvalues", kinds_of(multiplier_columns()), false, true},
         {"minima", kinds_of(minimum_columns()), true, false},
         {"end_values", kinds_of(end_value_columns()), true, false},
     };

@@ -1,5 +1,6 @@
 #include "study/branch_run.hpp"
 
+#include "branch/cycle_at_hopf.hpp"
 #include "graze/branch/chatter_curve.hpp"
 #include "graze/branch/curve_start.hpp"
 #include "graze/branch/impacting_curve.hpp"
@@ -132,7 +133,8 @@ SpecialPoint touch_to_keep(const StudyRun& run, const SpecialPoint& point) {
 }
 
 /// The point, as one of the type whose curve is followed.
-SpecialPoint point_to_keep(const StudyRun& run, const System& system, const SpecialPoint& point) {
+SpecialPoint point_to_keep(const StudyRun& run, const System& system, const SpecialPoint& given) {
+    const SpecialPoint point = at_place(run.start->place, run, [&] { return hopf_of_equilibrium(system, given); });
     const PointType asked = point_type(run.start->onto).value_or(point.type);
     if (!kind_of(asked).may_be_kept)
         throw InputError(run.start->place,

@@ -71,9 +71,9 @@ StudyRun started_run(const StartedRun& started) {
 template <class Bytes, class Result>
 void describe_result(Bytes& bytes, Result& result) {
     bytes.choice(result.label, Label::failed);
-    bytes(result.period, result.duration, result.signature, result.symmetric, result.multipliers, result.residual,
-          result.lyapunov, result.lyapunov_error, result.cycles, result.periods_run, result.time, result.state,
-          result.mode);
+    bytes(result.period, result.duration, result.signature, result.symmetric, result.multipliers, result.eigenvalues,
+          result.residual, result.lyapunov, result.lyapunov_error, result.cycles, result.periods_run, result.time,
+          result.state, result.mode);
     bytes.choice(result.outcome.ending, Ending::step_limit);
     bytes(result.outcome.time, result.outcome.detail, result.samples.width, result.samples.samplings,
           result.samples.times, result.samples.values);

@@ -39,18 +39,38 @@ void turn_to_first(std::vector<std::uint32_t>& cycle) {
     std::rotate(cycle.begin(), cycle.begin() + static_cast<std::ptrdiff_t>(std::min(one, other)), cycle.end());
 }
 
-/// Returns the labels of transitions, without those that change nothing; repetitions are written as powers.
+/// Removes from a cyclic sequence the contacts that accumulate: an odd number stands for all of them.
+std::vector<std::uint32_t> without_accumulating(const std::vector<std::uint32_t>& cycle) {
+    const std::size_t length = cycle.size();
+    std::vector<bool> removed(length, false);
+    for (std::size_t i = 0; i < length; ++i)
+        for (std::size_t k = 1; cycle[i] % 2 == 1 && k < length; ++k) {
+            const std::size_t before = (i + length - k) % length;
+            if (cycle[before] + 1 != cycle[i])
+                break;
+            removed[before] = true;
+        }
+    std::vector<std::uint32_t> result;
+    for (std::size_t i = 0; i < length; ++i)
+        if (!removed[i])
+            result.push_back(cycle[i]);
+    return result;
+}
+
+/// Returns the labels of transitions, without those that change nothing; repetitions are written as powers, and
+/// contacts that accumulate as a star, as in signatures of orbits.
 /// @param period in returns. Which return of several an orbit begins with is chance: the order is made unique.
 std::string signature_of(const Model& model, std::span<const std::uint32_t> contacts, std::size_t period) {
     std::vector<std::uint32_t> seen;
     for (const std::uint32_t code : contacts)
         if (code % 2 == 1 || !changes_nothing(model.transitions[code / 2]))
             seen.push_back(code);
+    seen = without_accumulating(seen);
     if (period > 1)
         turn_to_first(seen);
     std::vector<std::pair<std::string, std::size_t>> parts;
     for (const std::uint32_t code : seen) {
-        std::string name = model.transitions[code / 2].label + (code % 2 == 1 ? "(chatter)" : "");
+        std::string name = model.transitions[code / 2].label + (code % 2 == 1 ? "*" : "");
         if (!parts.empty() && parts.back().first == name)
             ++parts.back().second;
         else
@@ -282,8 +302,10 @@ bool AttractorSearch::finish_equilibrium(const Equilibrium& equilibrium) {
     result_.mode = equilibrium.mode;
     result_.lyapunov.reset();
     result_.lyapunov_error.reset();
-    if (!equilibrium.driven && equilibrium.values.size() > 0)
+    if (!equilibrium.driven && equilibrium.values.size() > 0) {
         result_.lyapunov = equilibrium.growth();
+        result_.eigenvalues.assign(equilibrium.values.begin(), equilibrium.values.end());
+    }
     if (setting_->map.is_phase() && watcher_.remembered() > 1) {
         // Returns continue as those of an orbit of period 1.
         result_.period = 1;

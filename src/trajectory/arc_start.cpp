@@ -38,6 +38,9 @@ void Trajectory::begin_arc(double step) {
     probes_->begin_arc();
     std::copy(state_.begin(), state_.end(), inputs_.begin());
     const auto& mode = *compiled_mode_;
+    const bool first = start_event_ == no_event && !stuck_ && contacts_ == 0 && steps_ == 0;
+    if (first && begins_beside_surface())
+        return;
     for (std::size_t w = 0; w < mode.watched.size(); ++w)
         if (!classify(w, step))
             return;

@@ -237,6 +237,8 @@ void Trajectory::finish_singular() {
             return;
         }
     }
+    if (ends_at_two_fold())
+        return finish_at_two_fold(std::min(time_ + radius, end_time_));
     finish(Ending::singular, std::min(time_ + radius, end_time_));
 }
 

@@ -17,6 +17,12 @@ void Trajectory::make_contact(std::size_t w, double s) {
     const auto& mode = *compiled_mode_;
     const std::size_t event = mode.watched[w];
     const std::size_t transition = mode.transitions[w];
+    if (is_two_fold(event, s)) {
+        for (std::size_t i = 0; i < states_; ++i)
+            state_[i] = evaluate_state(i, s);
+        add_time(s);
+        return finish_at_two_fold(time_);
+    }
     const double rate = evaluate_derivative(event_series(w), s);
     fields_.resize(2 * states_);
     for (std::size_t i = 0; i < states_; ++i) {
@@ -76,6 +82,8 @@ void Trajectory::apply_transition(std::size_t transition, double rate) {
         state_ = after_;
         if (ends)
             return finish(Ending::terminal, time_);
+        if (!definition.otherwise.empty())
+            return finish(Ending::no_transition, time_, fmt::format("{}: {}", where(), definition.otherwise));
         return finish(
             Ending::no_transition, time_,
             fmt::format("no condition of transition '{}' (mode '{}', event '{}') holds at time {:.15g}: add an "

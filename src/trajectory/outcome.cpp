@@ -5,9 +5,9 @@
 namespace graze {
 
 std::string_view name_of(Ending ending) {
-    constexpr std::string_view names[] = {"running",  "end-time",      "stopped",      "terminal",
-                                          "singular", "undefined",     "inadmissible", "no-transition",
-                                          "chatter",  "no-separation", "no-progress",  "step-limit"};
+    constexpr std::string_view names[] = {"running",     "end-time",     "stopped",       "terminal", "singular",
+                                          "undefined",   "inadmissible", "no-transition", "chatter",  "no-separation",
+                                          "no-progress", "step-limit",   "two-fold"};
     return enumerator_name(names, ending, "unknown");
 }
 

@@ -2,6 +2,8 @@
 
 #include "follow.hpp"
 
+#include "graze/branch/curve_start.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -247,6 +249,41 @@ TEST(EquilibriumBranch, BoundaryEquilibriaPersistOrFold) {
     EXPECT_EQ(curve.outcome, BranchOutcome::bound) << curve.detail;
     for (const BranchPoint& point : curve.points)
         EXPECT_NEAR(value_of(moved, point.solution, "mu"), point.parameter, 1e-12);
+}
+
+/// Two fields that push towards x = 0 from either side; from the left with (1, 3).
+Model sliding(const std::string& right) {
+    return model_from("[parameters]\nmu = 1\n[states]\nx = 1\ny = 1\n[modes.left]\nrates = { x = 1, y = 3 }\n"
+                      "[modes.right]\nrates = { x = '" +
+                      right +
+                      "', y = 'x - y' }\n[events]\nline = 'x'\n[slides.along]\nsurface = 'line'\n"
+                      "between = ['left', 'right']\n[initial]\nmode = 'right'\n");
+}
+
+TEST(EquilibriumBranch, PersistsAsAnEquilibriumOfSliding) {
+    // For x > 0 an equilibrium at (mu, mu); for mu < 0 sliding by the share l = 1/(1 - mu) of the right field.
+    const Branch branch = branch_of(sliding("mu - x"), "mu", -2, 2, -1);
+    ASSERT_EQ(names(branch), "BE BD") << branch.detail;
+    EXPECT_NEAR(branch.special[0].parameter, 0, 1e-14);
+    EXPECT_NE(branch.special[0].detail.find("persists as an equilibrium of mode 'along'"), std::string::npos)
+        << branch.special[0].detail;
+    const OrbitSolution& last = branch.points.back().solution;
+    EXPECT_NEAR(last.orbit.starts[0][0], 0, 1e-14);
+    EXPECT_NEAR(last.orbit.starts[0][1], 6, 1e-12); // y = -3 mu
+    ASSERT_EQ(last.eigenvalues.size(), 1U);
+    EXPECT_NEAR(last.eigenvalues[0].real(), -1.0 / 3, 1e-13); // -l
+    EXPECT_TRUE(is_stable(last));
+}
+
+TEST(EquilibriumBranch, MeetsAnEquilibriumOfSlidingInANonsmoothFold) {
+    const Branch branch = branch_of(sliding("x - mu"), "mu", -2, 2, -1);
+    ASSERT_EQ(names(branch), "BE BD") << branch.detail;
+    EXPECT_NE(branch.special[0].detail.find("nonsmooth fold with an equilibrium of mode 'along'"), std::string::npos)
+        << branch.special[0].detail;
+    EXPECT_NEAR(branch.points.back().parameter, 2, 1e-14);
+    EXPECT_NEAR(branch.points.back().solution.orbit.starts[0][1], 6, 1e-12); // y = 3 mu
+    EXPECT_TRUE(branch.points.back().stable);
+    EXPECT_FALSE(branch.points.front().stable);
 }
 
 TEST(EquilibriumBranch, NoPointOfAPairIsMissed) {

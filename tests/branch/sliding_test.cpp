@@ -133,6 +133,82 @@ TEST(Sliding, BranchContinuesWithDryFriction) {
     EXPECT_NEAR(*other.map.clearance_rate, *one.map.clearance_rate, 1e-8);
 }
 
+/// A slide between the two fields makes the same branch and the same grazing-sliding as the model written by hand.
+TEST(Sliding, ASlideGivesTheBranchOfTheModelThatIsWrittenByHand) {
+    Model written = belt();
+    written.set_parameter("nu", 1.711);
+    std::string text = write_model(written);
+    text = text.substr(0, text.find("[modes.below]")) + R"toml(
+[modes.below]
+rates = { x = "v", v = "smooth + alpha0", theta = "nu" }
+[modes.above]
+rates = { x = "v", v = "smooth - alpha0", theta = "nu" }
+[events]
+reach = "v - 1"
+[slides.stick]
+surface = "reach"
+between = ["below", "above"]
+[sections.phase0]
+state = "theta"
+value = 0
+[initial]
+mode = "below"
+)toml";
+    const Model made = model_from(text);
+    std::vector<SpecialPoint> points;
+    for (const Model& model : {written, made}) {
+        const BranchSettings settings = in_parameter(model, "nu", 1.65, 1.72, -1);
+        const auto touches =
+            of_type(follow_branch(System(model), settled(model, "phase0").orbit, settings), PointType::grazing);
+        ASSERT_FALSE(touches.empty());
+        points.push_back(touches[0]);
+        const Judged one(model, touches[0], settings.parameter);
+        EXPECT_EQ(one.map.contact.order, MapOrder::linear) << one.map.reason << one.map.contact.reason;
+        EXPECT_EQ(one.verdict.attractor, AttractorKind::chaotic);
+        EXPECT_EQ(one.trial.outcome, TrialOutcome::agreed) << one.trial.reason;
+    }
+    EXPECT_EQ(points[0].detail, "reach");
+    EXPECT_EQ(points[1].detail, "reach-rising; grazing-sliding");
+    EXPECT_NEAR(points[0].parameter, points[1].parameter, 1e-11);
+    EXPECT_EQ(points[0].solution.orbit.segments(), points[1].solution.orbit.segments());
+}
+
+/// x' = -x + A cos(theta) - sign(x): the symmetric orbit crosses x = 0 where the other side just ceases to push back,
+/// cos(theta) = -1/A, if sqrt(A^2 - 1) = 1 + 2 tanh(pi/2).
+TEST(Sliding, CrossingSlidingHasItsNameAndItsClosedForm) {
+    const Model model = model_from(R"toml(name = "first order"
+[parameters]
+A = 3.6
+[states]
+x = 1
+theta = { initial = 0, period = "2*pi" }
+[modes.low]
+rates = { x = "-x + A*cos(theta) + 1", theta = 1 }
+[modes.high]
+rates = { x = "-x + A*cos(theta) - 1", theta = 1 }
+[events]
+zero = "x"
+[slides.still]
+surface = "zero"
+between = ["low", "high"]
+[sections.phase0]
+state = "theta"
+value = 0
+[initial]
+mode = "high"
+)toml");
+    const BranchSettings settings = in_parameter(model, "A", 2.5, 3.6, -1);
+    const Branch branch = follow_branch(System(model), settled(model, "phase0").orbit, settings);
+    std::size_t found = 0;
+    for (const SpecialPoint& point : branch.special) {
+        if (point.detail.find("crossing-sliding") == std::string::npos)
+            continue;
+        ++found;
+        EXPECT_NEAR(point.parameter, std::hypot(1, 1 + 2 * std::tanh(std::numbers::pi / 2)), 1e-9) << point.detail;
+    }
+    EXPECT_GE(found, 1U);
+}
+
 /// The sliding orbit exists before the touch, and neither exists beyond it.
 TEST(Sliding, GrazingOnABeltMayBeAFold) {
     Model model = belt();

@@ -2,6 +2,7 @@
 
 #include "graze/model/drawing.hpp"
 #include "graze/model/parameter_id.hpp"
+#include "graze/model/sliding.hpp"
 #include "graze/model/state_map.hpp"
 #include "graze/symbolic/expression.hpp"
 #include "graze/symbolic/function.hpp"
@@ -38,8 +39,10 @@ struct Definition {
 
 struct Mode {
     std::string name{}, text{};
-    std::vector<Expression> rates{};    ///< time derivative of each state
-    std::vector<std::size_t> watched{}; ///< events; simultaneous ones are handled in this order
+    std::vector<Expression> rates{};         ///< time derivative of each state
+    std::vector<std::size_t> watched{};      ///< events; simultaneous ones are handled in this order
+    bool derived = false;                    ///< here and below: made by `Model::complete` from a declaration
+    std::vector<SlidingSurface> slides_on{}; ///< of a derived mode: the surfaces along which it moves
 };
 
 /// A barrier is positive on the admissible side and must not be crossed; a section may have either sign. Both occur
@@ -50,11 +53,13 @@ struct Event {
     std::string name{}, text{};
     Expression function{};
     EventKind kind = EventKind::barrier;
+    bool derived = false;
 };
 
 struct Jump {
     std::string name{}, text{};
     StateMap map{}; ///< each state after the jump, in terms of the states before
+    bool derived = false;
 };
 
 /// One possible continuation of a transition, taken when all its conditions hold in the state after the jump.
@@ -75,6 +80,8 @@ struct Transition {
     std::size_t mode = 0, event = 0, jump = 0;
     std::vector<Alternative> next{}; ///< the first alternative whose conditions hold is taken
     std::optional<Sticking> chatter{};
+    bool derived = false;
+    std::string otherwise{}; ///< of a derived one: why the motion ends when no condition holds, and what to do
 };
 
 enum class Direction { falling, rising, both };
@@ -108,6 +115,18 @@ std::optional<std::size_t> find_named(const std::vector<Item>& items, std::strin
     return found == items.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - items.begin()));
 }
 
+/// What `Model::complete` has replaced, as it was: for writing a model as it was declared.
+struct DeclaredParts {
+    std::vector<Mode> modes{}; ///< those without rates are the ones to be made
+    std::vector<Event> events{};
+    std::vector<Jump> jumps{};
+    std::vector<Transition> transitions{};
+    std::vector<Symmetry> symmetries{};
+    std::vector<Slide> slides{};
+    std::vector<std::vector<std::size_t>> modes_of_shapes{};
+    std::size_t initial_mode = 0;
+};
+
 /// The parts of a model. All expressions belong to its graph.
 struct ModelItems {
     std::shared_ptr<Graph> graph;
@@ -123,8 +142,13 @@ struct ModelItems {
     std::vector<Section> sections;
     std::vector<Symmetry> symmetries;
     std::vector<Quantity> quantities;
+    std::vector<Slide> slides;
+    std::vector<Friction> frictions;
     std::optional<ModelDrawing> drawing;
     std::size_t initial_mode = 0;
+    /// If not empty, the initial mode is that of the first whose conditions hold in the initial state.
+    std::vector<Alternative> initial_modes;
+    std::shared_ptr<const DeclaredParts> declared; ///< of a completed model with slides or frictions
 };
 
 /// A hybrid dynamical system, ready to be compiled. Expressions are in terms of the symbols of states, parameters and
@@ -180,7 +204,8 @@ struct Model : ModelItems {
     /// Sets an independent parameter.
     /// @throws InputError for an unknown name (with the nearest), a dependent parameter, or a value that is not finite
     void set_parameter(std::string_view item, double value);
-    /// Sets the initial value of a state. @throws InputError as above
+    /// Sets the initial value of a state; an initial mode with friction follows its velocity.
+    /// @throws InputError as above
     void set_initial(std::string_view item, double value);
     /// @throws InputError for an unknown name (with the nearest)
     void set_initial_mode(std::string_view item);
@@ -198,6 +223,10 @@ struct Model : ModelItems {
     /// Returns the period of each state at the present parameters; 0 if the state is not cyclic.
     std::vector<double> periods() const;
 
+    /// Makes the modes, events, jumps and transitions that slides and frictions stand for. To be called once, when all
+    /// parts are there; `read_model` does it. Without slides and frictions, or after the first call, nothing changes.
+    /// @throws InputError for a declaration that cannot be completed
+    void complete();
     /// Checks everything on which a compiled model relies: sizes, indices, names, symbols, circular definitions,
     /// finite parameters, periods positive. @throws InputError naming the first thing wrong
     void validate() const;

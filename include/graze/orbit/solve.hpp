@@ -73,9 +73,9 @@ OrbitSolution solve_orbit(const System& system, const Orbit& candidate, const Or
 
 /// Finds the periodic orbit on which simulation settles at the model's parameters and initial state, and refines it by
 /// solve_orbit. The result is a half orbit if the orbit is its own image under the model's (first) symmetry.
-/// @throws InputError when the motion does not settle on a periodic orbit, or contacts accumulate within it; the
-/// message says what
-/// the motion does instead
+/// Contacts that accumulate within the orbit are one segment of it, up to the rest that follows.
+/// @throws InputError when the motion does not settle on a periodic orbit; the message says what the motion does
+/// instead
 OrbitSolution find_orbit(const System& system, const AttractorOptions& settle, const OrbitOptions& options = {},
                          const SimulationOptions& simulation = {});
 /// The same, but can be interrupted. @param interrupted called after each return to the section; returns true to stop
@@ -119,7 +119,11 @@ struct FollowedMotion {
     std::size_t final_mode = 0;
     std::string problem; ///< why the motion could not be followed (chatter, singular end); empty otherwise
 };
+/// What follow_motion does where contacts accumulate: it ends there, with a problem, or makes one segment of the
+/// contacts and goes on as the model says.
+enum class Accumulations { end, segments };
 FollowedMotion follow_motion(const Simulation& simulation, std::span<const double> parameters,
-                             std::span<const double> state, std::size_t mode, double time);
+                             std::span<const double> state, std::size_t mode, double time,
+                             Accumulations accumulations = Accumulations::end);
 
 } // namespace graze

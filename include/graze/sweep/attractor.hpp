@@ -96,6 +96,8 @@ struct PointResult {
     std::string signature;
     std::optional<bool> symmetric; ///< whether a periodic orbit is its own image under the model's (first) symmetry
     std::vector<std::complex<double>> multipliers; ///< of the return map, largest first
+    std::vector<std::complex<double>>
+        eigenvalues;     ///< of an equilibrium on which no clock acts, largest real part first
     double residual = 0; ///< defect of the periodic orbit, relative to the spread of the states
     std::optional<double> lyapunov, lyapunov_error; ///< largest exponent, per unit of time, and its error (95 %)
     std::size_t cycles = 0;                         ///< returns simulated until the result was known

@@ -19,6 +19,7 @@ enum class Ending {
     no_separation, ///< after its jump, a barrier is still being approached
     no_progress,   ///< too many events at one time
     step_limit,    ///< more steps than allowed
+    two_fold,      ///< sliding ends towards both sides at once: the motion beyond is not unique
 };
 
 /// Stable name for tables and files, such as "end-time".

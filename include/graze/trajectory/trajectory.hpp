@@ -185,6 +185,11 @@ private:
     double surface_at_start(std::size_t watched, double size, double& drifted);
     bool is_due(std::size_t event) const;
     void finish_violated(std::size_t watched);
+    bool begins_beside_surface();
+    bool is_two_fold(std::size_t event, double s);
+    bool ends_at_two_fold();
+    bool is_near_zero(std::size_t event, double s, double share);
+    void finish_at_two_fold(double time);
     double uncertainty_at_start(std::size_t watched, double size);
     double drift(std::size_t event, double size) const;
     bool fell_before(std::size_t watched, double at_surface);
