@@ -20,11 +20,12 @@ namespace graze {
 namespace {
 
 /// What runs of each kind are, in the order of RunKind.
-constexpr std::array<std::string_view, 10> words_of_kinds{"motions of given duration",
+constexpr std::array<std::string_view, 11> words_of_kinds{"motions of given duration",
                                                           "attractors as a parameter changes",
                                                           "attractors from many initial states",
                                                           "a periodic orbit",
-                                                          "a branch of periodic orbits",
+                                                          "equilibria",
+                                                          "a branch of periodic orbits or equilibria",
                                                           "a curve of special points",
                                                           "a sequence of grazings",
                                                           "measured records",

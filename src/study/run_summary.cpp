@@ -58,8 +58,6 @@ std::vector<std::pair<std::string, std::string>> ends_of(const StoredRun& run) {
     if (!run.record.is_followed()) // a single equilibrium has no end
         std::erase_if(ends, [](const auto& end) { return end.second.empty(); });
     const bool unfinished = run.record.status == RunStatus::unfinished; // of which only the last part can be
-    if (!run.record.is_followed() && !unfinished) // an equilibrium near a state is the end of no search
-        std::erase_if(ends, [](const auto& end) { return end.second.empty(); });
     for (std::size_t p = 0; p < ends.size(); ++p)
         if (ends[p].second.empty())
             ends[p].second = unfinished && p + 1 == ends.size() ? "interrupted; the same command begins the run again"

@@ -9,10 +9,12 @@
 #include "page/motion_json.hpp"
 #include "page/point_json.hpp"
 #include "page/proposed_run.hpp"
+#include "page/runs_json.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <memory>
 
@@ -46,9 +48,11 @@ kind = "curve"
 start = { run = "branch", point = "SN1" }
 along = { b1 = [-1, 1], b2 = [-2, 1] }
 [runs.settled]
-kind = "simulate"
-from = { x = -0.09 }
-time = 5
+model = "./settling.toml"
+kind = "sweep"
+set = { b1 = 0.1 }
+from = { x = 0.1 }
+vary = { b2 = { from = -1, to = -0.99, points = 2 } }
 )";
 
 class EquilibriumPage : public ::testing::Test {
@@ -60,6 +64,7 @@ protected:
         std::unique_ptr<ResultFile> file;
         Computed() {
             std::ofstream(folder / "bogdanov.toml") << bogdanov;
+            std::ofstream(folder / "settling.toml") << bogdanov << "[sections.rest]\nfunction = \"y\"\n";
             file = std::make_unique<ResultFile>(folder / "results.sqlite", ResultFile::Access::write);
             compute("");
         }
@@ -154,6 +159,17 @@ TEST_F(EquilibriumPage, AnEquilibriumIsFoundFromAModel) {
     EXPECT_EQ(proposed.text.find("start"), std::string::npos) << proposed.text;
 }
 
+TEST_F(EquilibriumPage, AnEquilibriumIsFoundWhereAMotionSettles) {
+    const PointOrigin settled = point_origin(*results().file, results().study, "settled", 0);
+    ASSERT_EQ(settled.point->result.label, Label::equilibrium);
+    EXPECT_EQ(offered(settled), (Names{"equilibrium", "sweep", "simulate"}));
+    const auto found = carried_out(settled, {.action = "equilibrium"});
+    ASSERT_EQ(found.size(), 1U);
+    const Orbit& orbit = found[0].point.solution.orbit;
+    EXPECT_NEAR(orbit.starts[0][0], (1 - std::sqrt(0.6)) / 2, 1e-10);
+    EXPECT_EQ(orbit.parameters[0], 0.1); // b1
+}
+
 TEST_F(EquilibriumPage, APointHasEigenvaluesAndNoPeriod) {
     const StoredRun run(*results().file, "branch", {});
     const nlohmann::json point = point_json(run, results().file->orbit("branch", "HB1")->number);
@@ -165,6 +181,20 @@ TEST_F(EquilibriumPage, APointHasEigenvaluesAndNoPeriod) {
     EXPECT_EQ(point.at("signature"), "equilibrium");
     for (const auto& fact : point.at("facts"))
         EXPECT_NE(fact[0], "period");
+}
+
+TEST_F(EquilibriumPage, EachKindOfRunHasItsWords) {
+    const nlohmann::json runs = runs_json(*results().file, nullptr);
+    const auto words = [&](const std::string& run) {
+        for (const nlohmann::json& one : runs)
+            if (one.at("name") == run)
+                return one.at("kind_words").get<std::string>();
+        return std::string();
+    };
+    EXPECT_EQ(words("all"), "equilibria");
+    EXPECT_EQ(words("branch"), "a branch of periodic orbits or equilibria");
+    EXPECT_EQ(words("folds"), "a curve of special points");
+    EXPECT_EQ(words("settled"), "attractors as a parameter changes");
 }
 
 TEST_F(EquilibriumPage, ItsMotionIsOneRow) {
