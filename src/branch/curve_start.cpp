@@ -49,7 +49,8 @@ bool equilibrium_satisfies(const SpecialPoint& point, PointType type) {
         largest = std::max(largest, std::abs(one));
     const auto any = [&](const auto& has) { return std::ranges::any_of(point.solution.eigenvalues, has); };
     if (type == PointType::fold)
-        return any([&](auto one) { return std::abs(one) <= share * largest; });
+        return point.type == PointType::takens_bogdanov ||
+               any([&](auto one) { return std::abs(one) <= share * largest; });
     return type == PointType::hopf &&
            (point.type == PointType::takens_bogdanov ||
             any([&](auto one) { return one.imag() > share * largest && std::abs(one.real()) <= share * largest; }));

@@ -63,10 +63,9 @@ bool is_like(const OrbitSolution& solution, const Orbit& guess, const Equilibriu
     throw InputError(fmt::format("no cycle was found at the Hopf point: {}", why), remedy);
 }
 
-std::vector<BranchStart> equilibria_from(const SpecialPoint& point) {
+std::vector<BranchStart> equilibria_from(const System& system, const SpecialPoint& point) {
     std::vector<BranchStart> starts;
-    Orbit rest = orbit_of_rest(point.solution.orbit.signature.front().mode, point.solution.orbit.starts.front(),
-                               point.solution.orbit.parameters);
+    const Orbit rest = hopf_of_equilibrium(system, point).solution.orbit;
     OrbitDirection direction;
     direction.starts = {std::vector<double>(rest.starts[0].size(), 0.0)};
     direction.durations = {0.0};
@@ -86,16 +85,27 @@ SpecialPoint hopf_of_equilibrium(const System& system, const SpecialPoint& point
     SpecialPoint result = point;
     result.solution =
         solve_orbit(system, orbit_of_rest(orbit.signature.front().mode, orbit.starts.front(), orbit.parameters));
+    const std::string remedy = "start from a point HB of a branch of equilibria";
     if (result.solution.outcome != OrbitOutcome::converged)
-        throw InputError("the equilibrium to which the cycles shrink was not found: " + result.solution.detail,
-                         "start from a point HB of a branch of equilibria");
+        throw InputError("the equilibrium to which the cycles shrink was not found: " + result.solution.detail, remedy);
+    constexpr double near = 1e-3; // of the states' sizes: located points are far more accurate
+    const std::vector<double>& state = result.solution.orbit.starts.front();
+    const std::vector<double> usual = system.initial()(orbit.parameters);
+    double off = 0, size = 0;
+    for (std::size_t i = 0; i < state.size(); ++i)
+        if (!system.model().states[i].period) {
+            off = std::max(off, std::abs(state[i] - orbit.starts.front()[i]));
+            size = std::max({size, std::abs(state[i]), std::abs(usual[i])});
+        }
+    if (size > 0 && !(off <= near * size))
+        throw InputError("the orbit has not shrunk to an equilibrium", remedy);
     result.tangent = {};
     return result;
 }
 
 std::vector<BranchStart> leave_hopf(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
     if (!is_rest(point.solution.orbit.signature))
-        return equilibria_from(point);
+        return equilibria_from(system, point);
     BranchSettings plain = settings;
     plain.monitors.clear();
     plain.free.clear();

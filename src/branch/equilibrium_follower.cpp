@@ -175,9 +175,15 @@ bool EquilibriumFollower::take_step(DescribedEquilibrium& before) {
         const bool jumped = crossed && std::ranges::none_of(found_, [](const SpecialPoint& one) {
                                 return one.type == PointType::branch_point || one.type == PointType::bound;
                             });
-        if (!is_plain || attempt == most_repetitions ||
-            (!jumped && EquilibriumLocator::explains(found_, before, here_)))
+        const bool explained = !jumped && EquilibriumLocator::explains(found_, before, here_);
+        if (!is_plain || explained)
             return true;
+        if (attempt == most_repetitions) {
+            if (!jumped && found_.empty() && before.unstable != here_.unstable)
+                if (auto several = locator_->crossing_of_several(before, here_))
+                    found_.push_back(std::move(*several));
+            return true;
+        }
         const double length = continuation_->point().arclength - continuation_->previous().arclength;
         *continuation_ = start;
         *locator_ = locator;

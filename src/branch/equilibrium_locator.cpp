@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 namespace graze {
 
@@ -140,7 +141,7 @@ std::optional<SpecialPoint> EquilibriumLocator::locate(std::size_t test, const B
 
 bool EquilibriumLocator::confirm(SpecialPoint& special, const BranchTest& test, const DescribedEquilibrium& there,
                                  double size) {
-    constexpr double solved = 1e-8, small = 1e-3, neutral = 1e-7;
+    constexpr double solved = 3e-11, small = 1e-3, neutral = 1e-7;
     const double field = there.evaluation.field.norm();
     const BranchSettings& settings = path_->settings();
     if (test.singular) // two branches that do not cross: the interpolated point is no solution
@@ -216,17 +217,63 @@ std::string EquilibriumLocator::hopf_in_words(const DescribedEquilibrium& there)
     return in_words(*form, others);
 }
 
+std::optional<SpecialPoint> EquilibriumLocator::crossing_of_several(const DescribedEquilibrium& before,
+                                                                    const DescribedEquilibrium& here) {
+    double low = 0, high = 1;
+    std::optional<DescribedEquilibrium> there;
+    while (high - low > located_within) {
+        const double middle = 0.5 * (low + high);
+        auto next = describe_between(middle);
+        if (!next)
+            break;
+        (next->unstable == before.unstable ? low : high) = middle;
+        there = std::move(next);
+    }
+    path_->problem()->evaluate(here.at.u);
+    if (!there)
+        return std::nullopt;
+    const std::vector<std::complex<double>>& all = there->point.solution.eigenvalues;
+    const auto nearest =
+        std::ranges::min_element(all, {}, [](std::complex<double> one) { return std::abs(one.real()); });
+    SpecialPoint special;
+    special.type = nearest != all.end() && nearest->imag() != 0 ? PointType::hopf : PointType::branch_point;
+    special.located = false;
+    special.detail =
+        fmt::format("the number of unstable eigenvalues changes from {} to {} at once: what begins there is "
+                    "not computed",
+                    before.unstable, here.unstable);
+    special.solution = there->point.solution;
+    special.parameter = there->point.parameter;
+    special.bracket = std::minmax(before.point.parameter, here.point.parameter);
+    special.arclength = there->point.arclength;
+    special.tangent = there->point.tangent;
+    special.monitors = there->point.monitors;
+    return special;
+}
+
 bool EquilibriumLocator::explains(const std::vector<SpecialPoint>& found, const DescribedEquilibrium& before,
                                   const DescribedEquilibrium& here) {
-    long single = 0, pairs = 0;
+    std::size_t unstable = before.unstable;
     for (const SpecialPoint& one : found) {
         if (one.type == PointType::boundary_equilibrium || one.type == PointType::bound)
             return true; // the rest of the step may not belong to the branch
-        single += one.type == PointType::fold || one.type == PointType::branch_point ? 1 : 0;
-        pairs += one.type == PointType::hopf ? 1 : 0;
+        const bool is_pair = one.type == PointType::hopf;
+        if (!is_pair && one.type != PointType::fold && one.type != PointType::branch_point)
+            continue;
+        // The eigenvalues that stay on their sides there: all but the one or two that cross.
+        std::vector<std::complex<double>> others = one.solution.eigenvalues;
+        if (is_pair)
+            others = without_pair(others, product_of_nearest_pair(others));
+        else if (!others.empty())
+            others.erase(std::ranges::min_element(others, {}, [](auto value) { return std::abs(value); }));
+        const auto stay = static_cast<std::size_t>(
+            std::ranges::count_if(others, [](std::complex<double> value) { return value.real() > 0; }));
+        const std::size_t crossing = is_pair ? 2 : 1;
+        if (unstable != stay && unstable != stay + crossing)
+            return false;
+        unstable = 2 * stay + crossing - unstable;
     }
-    const long change = std::abs(static_cast<long>(here.unstable) - static_cast<long>(before.unstable));
-    return (change - single) % 2 == 0 && change <= single + 2 * pairs;
+    return unstable == here.unstable;
 }
 
 } // namespace graze

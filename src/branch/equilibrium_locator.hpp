@@ -24,6 +24,10 @@ public:
     static bool explains(const std::vector<SpecialPoint>& found, const DescribedEquilibrium& before,
                          const DescribedEquilibrium& here);
 
+    /// Finds the point of a step at which several eigenvalues cross the imaginary axis at once, of which no test tells.
+    std::optional<SpecialPoint> crossing_of_several(const DescribedEquilibrium& before,
+                                                    const DescribedEquilibrium& here);
+
 private:
     using Bracket = std::pair<TestValue, TestValue>;
     std::vector<Bracket> brackets_of(std::size_t test, const BranchTest& before, const BranchTest& here);

@@ -130,7 +130,17 @@ bool EquilibriumProblem::evaluate(std::span<const double> u) {
             return false;
         matrix_.row(row) = gradient.transpose();
     }
+    if (row_sizes_.size() == 0)
+        measure_rows();
     return values_.allFinite() && matrix_.allFinite();
+}
+
+void EquilibriumProblem::measure_rows() {
+    constexpr double smallest = 1e-8; // of the longest row: one that nearly vanishes has no length of its own
+    row_sizes_ = matrix_.rowwise().norm();
+    const double longest = row_sizes_.size() > 0 ? row_sizes_.maxCoeff() : 0;
+    for (double& size : row_sizes_)
+        size = std::isfinite(size) && longest > 0 ? std::max(size, smallest * longest) : 1;
 }
 
 bool EquilibriumProblem::solve(std::span<const double> row, double right, bool homogeneous, std::span<double> step,
@@ -139,16 +149,16 @@ bool EquilibriumProblem::solve(std::span<const double> row, double right, bool h
     Eigen::MatrixXd matrix(all, all);
     matrix.topRows(all - 1) = matrix_;
     matrix.row(all - 1) = vector_of(row).cwiseProduct(scales_).transpose();
-    // Rates have units of their own: rows of equal length make pivots comparable.
+    // Rates have units of their own: rows of similar length make pivots comparable. The factors do not change within a
+    // step, so that the determinant is smooth even where a row vanishes.
     Eigen::VectorXd values = Eigen::VectorXd::Zero(all);
     if (!homogeneous)
         values.head(all - 1) = -values_;
     values[all - 1] = right;
-    for (Eigen::Index i = 0; i < all; ++i)
-        if (const double size = matrix.row(i).norm(); size > 0) {
-            matrix.row(i) /= size;
-            values[i] /= size;
-        }
+    for (Eigen::Index i = 0; i + 1 < all; ++i) {
+        matrix.row(i) /= row_sizes_[i];
+        values[i] /= row_sizes_[i];
+    }
     const FullLU<double> factors(matrix);
     if (determinant)
         *determinant = factors.determinant();
@@ -184,7 +194,8 @@ void EquilibriumProblem::accept(std::span<const double> u) {
     for (std::size_t k = 0; k < held_.size(); ++k)
         if (describe(u, at_))
             held_[k]->accept(at_);
-    evaluate(u);
+    if (evaluate(u))
+        measure_rows();
 }
 
 void EquilibriumProblem::reduce(std::span<double> difference) const {

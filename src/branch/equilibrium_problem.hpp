@@ -72,6 +72,7 @@ public:
 
 private:
     void choose_scales(std::span<const double> u);
+    void measure_rows();
 
     Orbit like_; ///< the candidate, whose other states and parameters stay
     EquilibriumEquations equations_;
@@ -80,7 +81,8 @@ private:
     Eigen::VectorXd scales_;
     EquilibriumEvaluation at_;
     Eigen::VectorXd values_;
-    Eigen::MatrixXd matrix_; ///< in scaled unknowns
+    Eigen::MatrixXd matrix_;    ///< in scaled unknowns
+    Eigen::VectorXd row_sizes_; ///< lengths of its rows at the last accepted point, by which they are divided
 };
 
 } // namespace graze

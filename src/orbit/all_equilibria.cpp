@@ -34,6 +34,20 @@ ActiveBox box_of(const EquilibriumEquations& equations, std::span<const StateBou
     return box;
 }
 
+/// The states that neither move nor have a range: each value of theirs has its own equilibria.
+std::string condition_of(const EquilibriumEquations& equations, std::span<const double> state) {
+    std::string text;
+    const Model& model = equations.system().model();
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        const bool moves = std::ranges::find(equations.active(), i) != equations.active().end() ||
+                           std::ranges::find(equations.clocks(), i) != equations.clocks().end() ||
+                           model.states[i].drifting;
+        if (!moves)
+            text += fmt::format("{} {} = {:.10g}", text.empty() ? " at" : ",", model.states[i].name, state[i]);
+    }
+    return text;
+}
+
 /// True when two equilibria of cyclic states are the same but for whole periods.
 bool is_same(const Orbit& one, const Orbit& other, std::span<const double> periods) {
     constexpr double same = 1e-9;
@@ -70,9 +84,10 @@ EquilibriumSearch all_equilibria(const System& system, std::size_t mode, std::sp
     }
     if (equations.size() == 0) {
         search.found = {solved_at({})};
-        search.complete = true;
+        search.problem = search.found[0].detail;
         return search;
     }
+    search.condition = condition_of(equations, state);
     const ActiveBox box = box_of(equations, within, periods);
     std::vector<double> others;
     for (std::size_t i = 0; i < state.size(); ++i)

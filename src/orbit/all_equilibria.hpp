@@ -19,7 +19,8 @@ struct EquilibriumSearch {
     std::vector<OrbitSolution> undecided;
     bool complete = false; ///< it is proven that there are no others
     bool interrupted = false;
-    std::string problem; ///< why the mode has none, or why the search is not complete
+    std::string condition; ///< " at x = 1": values of states that do not move, for which this holds; empty if all do
+    std::string problem;   ///< why the mode has none, or why the search is not complete
 };
 
 /// Finds all equilibria of a mode in a box of its active states, by interval arithmetic: see find_zeros.

@@ -24,6 +24,9 @@ std::vector<double> usual_values(const Model& model, const std::vector<Parameter
 
 const Orbit& valid(const Model& model, const Orbit& orbit) {
     validate_orbit(model, orbit);
+    if (is_rest(orbit.signature))
+        throw InputError("an equilibrium is asked for contacts or a period, and has none",
+                         "choose a point of a branch of periodic orbits");
     return orbit;
 }
 

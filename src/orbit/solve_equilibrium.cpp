@@ -34,17 +34,27 @@ public:
             return OrbitOutcome::converged;
         double before = infinity;
         for (solution_->iterations = 1; solution_->iterations <= options_->iterations; ++solution_->iterations) {
+            // A state may be far from its size at the equilibrium: corrections are small in the scales of the last one.
+            scales_ = scales_of_equilibrium(*equations_, state(), *parameters_, {});
             const Eigen::VectorXd rates = scaled(equations_->rates(state(), *parameters_));
             const Eigen::MatrixXd field = matrix();
             if (!rates.allFinite() || !field.allFinite()) {
                 solution_->detail = "the model is not defined there";
                 return OrbitOutcome::undefined;
             }
-            const PivotedQR factors(field, round_off_of_rank);
+            // Rows and columns of length 1: pivots then tell the rank, whatever the scales.
+            const Eigen::VectorXd rows = lengths(field.rowwise().norm());
+            Eigen::MatrixXd even = rows.cwiseInverse().asDiagonal() * field;
+            const Eigen::VectorXd columns = lengths(even.colwise().norm());
+            even = even * columns.cwiseInverse().asDiagonal();
+            const PivotedQR factors(even, round_off_of_rank);
             rank_ = factors.rank();
             const auto correction = [&](const Eigen::VectorXd& right) {
-                return Eigen::VectorXd(rank_ == right.size() ? factors.solve(right)
-                                                             : shortest_solution(field, right, round_off_of_rank));
+                const Eigen::VectorXd divided = right.cwiseQuotient(rows);
+                const Eigen::VectorXd result = rank_ == right.size()
+                                                   ? factors.solve(divided)
+                                                   : shortest_solution(even, divided, round_off_of_rank);
+                return Eigen::VectorXd(result.cwiseQuotient(columns));
             };
             const Eigen::VectorXd step = -correction(rates);
             const double size = step.cwiseAbs().maxCoeff();
@@ -77,6 +87,9 @@ public:
 
 private:
     std::vector<double>& state() const { return solution_->orbit.starts[0]; }
+    static Eigen::VectorXd lengths(const Eigen::VectorXd& norms) {
+        return norms.unaryExpr([](double one) { return one > 0 ? one : 1; });
+    }
     Eigen::VectorXd scaled(const Eigen::VectorXd& rates) const { return rates.cwiseQuotient(scales_); }
     Eigen::MatrixXd matrix() const {
         return scales_.cwiseInverse().asDiagonal() *

@@ -215,8 +215,8 @@ void declare_export(CommandLine& line) {
     options.add("FILE", exported.file, "Result file, or the folder of a study");
     options.add("--run RUN", exported.runs, "Export only these runs (all)");
     options.add("--what TABLE", exported.what,
-                "points (default), samples, segments, multipliers, half_multipliers, eigenvalues, minima, end_values, "
-                "estimates, covariances or runs");
+                "samples, segments, multipliers, half_multipliers, eigenvalues, minima, end_values, estimates, "
+                "covariances or runs (points)");
     options.add("--label LABEL", exported.label,
                 "Export only points with this label, such as periodic; for branches also a type, such as GR (all)");
     options.add("--direction WAY", exported.direction, "Export only sweeps or branches in this direction (both)");

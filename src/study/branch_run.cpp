@@ -23,7 +23,9 @@ namespace {
 
 /// An orbit with the signature that the run asks for; none when interrupted.
 std::optional<Orbit> orbit_asked_for(const StudyRun& run, const System& system, const RunnerOptions& options) {
-    const Signature wanted = parse_signature(run.model, run.branch().signature, run.branch().signature_place);
+    Signature wanted = parse_signature(run.model, run.branch().signature, run.branch().signature_place);
+    if (is_rest(wanted) && run.branch().signature.find(':') == std::string::npos)
+        wanted = signature_of_rest(run.model.initial_mode);
     if (is_rest(wanted))
         return Orbit{wanted, run.model.parameter_values(), {run.model.initial_state()}, {0.0}, std::nullopt};
     SignatureSearchOptions search;

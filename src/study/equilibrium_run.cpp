@@ -18,16 +18,16 @@ namespace {
 /// What a search has found in one mode, in words: whether there may be others.
 std::string search_in_words(const EquilibriumSearch& search) {
     std::vector<std::string> words;
-    const std::size_t count = search.found.size() + search.undecided.size();
+    const std::size_t count = search.found.size();
     if (!search.problem.empty())
         words.push_back(search.problem);
-    else if (search.complete && search.undecided.empty())
-        words.push_back(fmt::format("all equilibria in the box: it is proven that there are {}", count));
     else if (search.complete)
+        words.push_back(fmt::format("in the box {}, by proof{}",
+                                    count == 1 ? "is one equilibrium" : fmt::format("are {} equilibria", count),
+                                    search.condition));
+    if (search.complete && !search.undecided.empty())
         words.push_back(
-            fmt::format("outside {} small boxes, in which it is not decided how many there are, it is proven "
-                        "that there are {}",
-                        search.undecided.size(), search.found.size()));
+            fmt::format("how many there are in {} further small boxes is not decided", search.undecided.size()));
     return fmt::format("{}", fmt::join(words, "; "));
 }
 

@@ -214,6 +214,38 @@ TEST(EquilibriumBranch, ZeroHopfAndDoubleHopfPointsAreFound) {
     EXPECT_NEAR(of_type(curve, PointType::double_hopf)[0].parameter, 0, 1e-12);
 }
 
+TEST(EquilibriumBranch, BranchPointsAreLocatedWhereARowOfTheEquationsVanishes) {
+    for (const double unit : {1e-9, 1.0, 1e6}) {
+        const Model model = plane("r = -1", "x = 0", fmt::format("x = 'r*x - x^3/{:.17g}'", unit * unit));
+        const Branch trivial = branch_of(model, "r", -2, 2);
+        ASSERT_EQ(names(trivial), "BP BD") << unit;
+        EXPECT_NEAR(trivial.special[0].parameter, 0, 1e-12);
+    }
+}
+
+TEST(EquilibriumBranch, HopfPointBesideAFoldIsFound) {
+    // x' = y, y' = b - e x + x^2 - x y: a Hopf point at b = 0 where e > 0, and a fold at b = e^2/4.
+    for (const double e : {0.02, 0.01, 1e-3}) {
+        const Model model =
+            plane(fmt::format("b = -1\ne = {:.17g}", e), "x = -1\ny = 0", "x = 'y', y = 'b - e*x + x^2 - x*y'");
+        const Branch branch = branch_of(model, "b", -2, 1);
+        EXPECT_EQ(names(branch), "HB SN BD") << e << ' ' << branch.detail;
+        if (branch.special.size() == 3) {
+            EXPECT_NEAR(branch.special[0].parameter, 0, 1e-12);
+            EXPECT_NEAR(branch.special[1].parameter, e * e / 4, 1e-12);
+        }
+    }
+}
+
+TEST(EquilibriumBranch, TwoEigenvaluesThatCrossAtOnceAreTold) {
+    const Model model = plane("p = -1", "x = 0\ny = 0", "x = 'p*x - x^3', y = 'p*y - y^3'");
+    const Branch branch = branch_of(model, "p", -2, 2);
+    ASSERT_EQ(names(branch), "BP BD") << branch.detail;
+    EXPECT_FALSE(branch.special[0].located);
+    EXPECT_NEAR(branch.special[0].parameter, 0, 1e-6);
+    EXPECT_NE(branch.special[0].detail.find("from 0 to 2"), std::string::npos) << branch.special[0].detail;
+}
+
 /// Two linear fields that meet at x = 0. @param right, left rates
 Model two_fields(const std::string& parameters, const std::string& right, const std::string& left, double x) {
     return TwoModes{.parameters = parameters,

@@ -79,6 +79,20 @@ TEST(SolveEquilibrium, ThatDoesNotExistIsNotConverged) {
     EXPECT_EQ(solved(model).outcome, OrbitOutcome::not_converged);
 }
 
+TEST(SolveEquilibrium, IsFoundFromStatesOfAnotherSize) {
+    for (const double start : {1.0, 1e10, -1e6, 1e-20}) {
+        const Model model = OneMode{.parameters = "p = 5e-13",
+                                    .states = fmt::format("x = {:.17g}\ny = {:.17g}", start, start),
+                                    .rates = "x = 'p - x', y = 'x/p - y'"}
+                                .model();
+        const OrbitSolution solution = solved(model);
+        ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
+        EXPECT_NEAR(solution.orbit.starts[0][0] / 5e-13, 1, 1e-12) << start;
+        EXPECT_NEAR(solution.orbit.starts[0][1], 1, 1e-12) << start;
+        EXPECT_EQ(solution.detail, "");
+    }
+}
+
 TEST(SolveEquilibrium, IsWhereAMotionSettles) {
     const Model model = OneMode{.parameters = "F = 1",
                                 .states = "x = 0.1\nv = 0",

@@ -49,7 +49,7 @@ def test_all_equilibria_in_a_box(wells):
     assert saddle.eigenvalues == pytest.approx(numpy.sort(numpy.roots([1, 0.2, -1]))[::-1], rel=1e-12)
     assert saddle.eigenvalues.tolist() == wells.eigenvalues[1].tolist()
     assert saddle.period == 0 and len(saddle.multipliers) == 0
-    assert "proven that there are 3" in list(wells.ends().values())[0]
+    assert "in the box are 3 equilibria, by proof" in list(wells.ends().values())[0]
     assert "3, 2 stable" in repr(wells) and "equilibrium, unstable" in repr(saddle)
     with pytest.raises(AttributeError, match="parameters"):
         wells.parameter

@@ -52,7 +52,7 @@ along = { a = [0.5, 3], b = [0.5, 5] }
     const auto rest = file.orbit("rest", std::string("EP1"));
     ASSERT_TRUE(rest);
     EXPECT_EQ(rest->part, "free");
-    EXPECT_THAT(rest->point.detail, HasSubstr("proven that there are 1"));
+    EXPECT_THAT(rest->point.detail, HasSubstr("in the box is one equilibrium, by proof"));
     EXPECT_EQ(rest->point.solution.orbit.period(), 0);
     ASSERT_EQ(rest->point.solution.eigenvalues.size(), 2U); // l^2 + l + 1 = 0
     EXPECT_NEAR(rest->point.solution.eigenvalues[0].real(), -0.5, 1e-15);
