@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <span>
 
 namespace graze {
 
@@ -17,6 +19,13 @@ namespace {
 constexpr int most_changes_of_mode = 20;
 constexpr int most_repetitions = 8;
 constexpr double shorter_step = 0.25;
+
+/// True when an eigenvalue cannot be told from one on the imaginary axis, given the accuracy of located points.
+bool is_neutral(std::span<const std::complex<double>> eigenvalues) {
+    constexpr double uncertain = 1e4; // in units of round-off
+    const double margin = uncertain * neutral_growth(eigenvalues);
+    return std::ranges::any_of(eigenvalues, [margin](auto one) { return std::abs(one.real()) <= margin; });
+}
 
 /// Follows a branch of equilibria, or a curve of their special points.
 class EquilibriumFollower : public BranchFollower {
@@ -160,7 +169,9 @@ void EquilibriumFollower::place_in_branch() {
 bool EquilibriumFollower::take_step(DescribedEquilibrium& before) {
     const Continuation start = *continuation_;
     const EquilibriumLocator locator = *locator_;
-    const bool is_plain = !settings_.kept && settings_.free.empty();
+    // At a start on a bifurcation the number of unstable eigenvalues is not known.
+    const bool is_plain = !settings_.kept && settings_.free.empty() &&
+                          !(before.at.arclength == 0 && is_neutral(before.point.solution.eigenvalues));
     for (int attempt = 0;; ++attempt) {
         if (!continuation_->step())
             return end(continuation_->outcome() == ContinuationOutcome::undefined ? BranchOutcome::undefined
