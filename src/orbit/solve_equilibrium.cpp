@@ -147,11 +147,13 @@ double scale_by_effect(std::size_t i, const Eigen::MatrixXd& field, const Eigen:
 /// Returns the linearised field beside a state: at the state itself, such as a fold, an effect of one state on another
 /// may vanish that tells their scales.
 Eigen::MatrixXd typical_field(const EquilibriumEquations& equations, std::span<const double> state,
-                              std::span<const double> parameters) {
+                              std::span<const double> parameters, const Eigen::VectorXd& scales,
+                              const std::vector<bool>& known) {
     constexpr double aside = 0.06;
     std::vector<double> beside(state.begin(), state.end());
-    for (const std::size_t i : equations.active())
-        beside[i] *= 1 + aside * std::cos(static_cast<double>(i + 1));
+    for (std::size_t k = 0; k < known.size(); ++k)
+        if (known[k])
+            beside[equations.active()[k]] += aside * std::cos(static_cast<double>(k + 1)) * scales[index(k)];
     const Eigen::MatrixXd field = equations.jacobian(beside, parameters).leftCols(equations.size());
     return field.allFinite() ? field
                              : Eigen::MatrixXd(equations.jacobian(state, parameters).leftCols(equations.size()));
@@ -207,7 +209,7 @@ Eigen::VectorXd scales_of_equilibrium(const EquilibriumEquations& equations, std
         scales[index(k)] = known[k] ? size : 1;
     }
     if (!known.empty())
-        complete_scales(typical_field(equations, state, parameters), scales, known);
+        complete_scales(typical_field(equations, state, parameters, scales, known), scales, known);
     return scales;
 }
 

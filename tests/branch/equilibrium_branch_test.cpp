@@ -183,6 +183,30 @@ TEST(EquilibriumBranch, BogdanovTakensPointLiesOnBothCurves) {
     EXPECT_EQ(ways, 1);
 }
 
+TEST(EquilibriumBranch, CurvesBeginAtABogdanovTakensPointInOtherCoordinates) {
+    // The same equations with x + y in place of y.
+    const Model model =
+        plane("a = -1\nb = -1", "x = -0.618\ny = 0", "x = 'x + y', y = 'a + b*x + x^2 - x*(x + y) - (x + y)'");
+    const Branch branch = branch_of(model, "a", -3, 3);
+    ASSERT_EQ(names(branch), "HB SN BD") << branch.detail;
+    const BranchSettings along = in_parameter(model, "a", -3, 3);
+    for (const PointType type : {PointType::hopf, PointType::fold}) {
+        const std::size_t place = type == PointType::hopf ? 0 : 1;
+        const Branch first = curve_of(model, branch.special[place], along, "b", -3, 3, 1);
+        auto found = of_type(first, PointType::takens_bogdanov);
+        if (found.empty())
+            found = of_type(curve_of(model, branch.special[place], along, "b", -3, 3, -1), PointType::takens_bogdanov);
+        ASSERT_FALSE(found.empty()) << names(first);
+        for (const PointType other : {PointType::hopf, PointType::fold}) {
+            std::size_t points = 0;
+            for (const int direction : {1, -1})
+                points = std::max(
+                    points, curve_of(model, as_type(found[0], other), along, "b", -3, 3, direction).points.size());
+            EXPECT_GT(points, 3U) << short_name(type) << ' ' << short_name(other);
+        }
+    }
+}
+
 TEST(EquilibriumBranch, BautinPointLiesOnTheCurveOfHopfPoints) {
     const Model model = plane("beta = -1\nw = 1\nsigma = -1", "x = 0\ny = 0", focus_rates);
     const Branch branch = branch_of(model, "beta", -2, 2);
