@@ -7,9 +7,9 @@
 
 namespace graze {
 
-/// Returns the name of a bifurcation of an orbit at a surface along which a slide lets motions slide, in the words of di
-/// Bernardo et al. 2008, chapter 8: "grazing-sliding", "crossing-sliding", "switching-sliding", "adding-sliding". Empty
-/// for other points. @param special a grazing, guard or vanishing point, complete but for its details
+/// Returns the name of a bifurcation of an orbit at a surface along which a slide lets motions slide, in the words of
+/// di Bernardo et al. 2008, chapter 8: "grazing-sliding", "crossing-sliding", "switching-sliding", "adding-sliding".
+/// Empty for other points. @param special a grazing, guard or vanishing point, complete but for its details
 std::string sliding_name(const System& system, const SpecialPoint& special);
 
 } // namespace graze

@@ -35,8 +35,8 @@ private:
 /// depends on states, except drifting ones. Clocks (cyclic states that advance at a rate of their own), drifting states
 /// and states that do not move keep the values that they are given. All derivatives are symbolic.
 ///
-/// In a mode that slides along surfaces the field says nothing of how far a state is from them. There it is completed so
-/// that distances decay, each at a rate of its own, which adds an eigenvalue for each surface.
+/// In a mode that slides along surfaces the field says nothing of how far a state is from them. There it is completed
+/// so that distances decay, each at a rate of its own, which adds an eigenvalue for each surface.
 class EquilibriumEquations {
 public:
     /// @param free independent parameters with respect to which derivatives are computed
@@ -57,8 +57,8 @@ public:
 
     /// Returns why the mode has no equilibria at these parameters: a state that moves steadily; empty if it may have.
     std::string why_none(std::span<const double> parameters) const;
-    /// Returns the rates of the active states, then their derivatives with respect to them, row by row, as a function of
-    /// the active states, the other states and the independent parameters.
+    /// Returns the rates of the active states, then their derivatives with respect to them, row by row, as a function
+    /// of the active states, the other states and the independent parameters.
     Function rates_for_search() const;
     /// Rates of the active states.
     Eigen::VectorXd rates(std::span<const double> state, std::span<const double> parameters) const;
@@ -82,7 +82,7 @@ private:
     std::vector<ParameterId> free_;
     std::vector<std::size_t> active_, clocks_, steady_; ///< steady: moves at a rate that depends on parameters only
     std::vector<double> added_;
-    Model model_;                                       ///< a copy, whose graph may grow
+    Model model_; ///< a copy, whose graph may grow
     std::vector<Expression> rates_of_all_, rates_, variables_, direction_, other_;
     /// States, independent parameters, a direction of the variables and one of the active states.
     SymbolIndex symbols_;

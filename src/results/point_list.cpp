@@ -172,7 +172,8 @@ private:
         const auto rests = [orbit](const auto& p) { return is_rest(orbit(p).signature); };
         const bool moves = !for_people_ || list_.points.empty() || any([rests](const auto& p) { return !rests(p); });
         show(moves, "period", time, [orbit](const auto& p) { return orbit(p).period(); });
-        show(for_people_ && moves, "durations", time, [orbit](const auto& p) { return numbers_text(orbit(p).durations, 6); });
+        show(for_people_ && moves, "durations", time,
+             [orbit](const auto& p) { return numbers_text(orbit(p).durations, 6); });
         for (std::size_t s = 0; s < segments; ++s)
             show(!for_people_, fmt::format("duration_{}", s + 1), time,
                  [orbit, s](const auto& p) { return s < orbit(p).segments() ? orbit(p).durations[s] : not_a_number; });

@@ -12,7 +12,8 @@
 
 namespace graze {
 
-/// Types of points on a branch of periodic orbits or equilibria. Each has an entry at the same index in the table of kinds.
+/// Types of points on a branch of periodic orbits or equilibria. Each has an entry at the same index in the table of
+/// kinds.
 enum class PointType {
     fold,              ///< SN: the branch has a fold; a multiplier is 1
     flip,              ///< PD: a multiplier is -1
@@ -46,11 +47,11 @@ enum class PointType {
     zero_hopf,            ///< ZH: on such a curve: one eigenvalue is 0, two are imaginary
     double_hopf,          ///< HH: on a curve of Hopf points: four eigenvalues are imaginary
     generalised_hopf,     ///< GH: on a curve of Hopf points: criticality changes (Bautin)
-    extremum,          ///< EX: extremum of the period, where that is free; or of a parameter, on a curve
-    bound,             ///< BD: a given bound is reached
-    crossing,          ///< UZ: a monitor takes a requested value
-    end,               ///< EP: the first or last point of a branch
-    regular,           ///< RG: no special event
+    extremum,             ///< EX: extremum of the period, where that is free; or of a parameter, on a curve
+    bound,                ///< BD: a given bound is reached
+    crossing,             ///< UZ: a monitor takes a requested value
+    end,                  ///< EP: the first or last point of a branch
+    regular,              ///< RG: no special event
 };
 /// Properties of a type of points.
 struct PointKind {

@@ -66,8 +66,8 @@ bool is_stable(const OrbitSolution& solution);
 std::size_t unstable_directions(const OrbitSolution& solution);
 
 /// Finds a periodic orbit near a candidate by damped Newton's method on multiple shooting with exact derivatives. Where
-/// a family of orbits exists at the same parameters, as in conservative models, the nearest member is found. A candidate
-/// with the signature of an equilibrium leads to an equilibrium of its mode: an orbit of duration 0.
+/// a family of orbits exists at the same parameters, as in conservative models, the nearest member is found. A
+/// candidate with the signature of an equilibrium leads to an equilibrium of its mode: an orbit of duration 0.
 /// @throws InputError when the candidate does not fit the model or the options are out of range
 OrbitSolution solve_orbit(const System& system, const Orbit& candidate, const OrbitOptions& options = {});
 
