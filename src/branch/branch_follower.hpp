@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace graze {
@@ -16,9 +17,30 @@ public:
     virtual bool start_along(const OrbitDirection& direction, double distance) = 0;
     virtual bool step() = 0;
     virtual const BranchPoint& point() const = 0;
-    virtual const std::vector<SpecialPoint>& found_points() const = 0;
-    virtual BranchOutcome how_ended() const = 0;
-    virtual const std::string& why_ended() const = 0;
+    const std::vector<SpecialPoint>& found_points() const { return found_; }
+    BranchOutcome how_ended() const { return outcome_; }
+    const std::string& why_ended() const { return detail_; }
+
+protected:
+    /// Ends the branch. @return false, for functions that tell whether there is a point
+    bool end(BranchOutcome how, std::string why) {
+        finish(how, std::move(why));
+        return false;
+    }
+    void finish(BranchOutcome how, std::string why) {
+        ended_ = true;
+        outcome_ = how;
+        detail_ = std::move(why);
+    }
+    /// Drops the special points found after number i, and moves the last point of the branch to that one.
+    void end_at(std::size_t i, BranchPoint& last);
+
+    std::vector<SpecialPoint> found_; ///< between the previous point and the last one
+    bool ended_ = true;
+
+private:
+    BranchOutcome outcome_ = BranchOutcome::no_start;
+    std::string detail_;
 };
 
 std::unique_ptr<BranchFollower> follower_of_orbits(const System& system, const Orbit& candidate,

@@ -61,9 +61,6 @@ public:
     bool step() override;
 
     const BranchPoint& point() const override { return here_.point; }
-    const std::vector<SpecialPoint>& found_points() const override { return found_; }
-    BranchOutcome how_ended() const override { return outcome_; }
-    const std::string& why_ended() const override { return detail_; }
 
 private:
     void make_path(const Orbit& orbit) {
@@ -72,19 +69,13 @@ private:
         locator_ = std::make_unique<EquilibriumLocator>(*path_, *continuation_);
     }
     bool begin(bool begun);
-    bool end(BranchOutcome how, std::string why) {
-        finish(how, std::move(why));
-        return false;
-    }
-    void finish(BranchOutcome how, std::string why) {
-        ended_ = true;
-        outcome_ = how;
-        detail_ = std::move(why);
-    }
     bool take_step(DescribedEquilibrium& before);
     void place_in_branch();
     void end_or_go_on(const DescribedEquilibrium& before);
-    void end_at(std::size_t i, BranchOutcome how, std::string why);
+    void finish_at(std::size_t i, BranchOutcome how, std::string why) {
+        end_at(i, here_.point);
+        finish(how, std::move(why));
+    }
     bool goes_on_in_other_mode(SpecialPoint& special);
     bool leads_beyond() const;
     bool begins_real(const DescribedEquilibrium& before) const;
@@ -96,13 +87,9 @@ private:
     std::unique_ptr<Continuation> continuation_;
     std::unique_ptr<EquilibriumLocator> locator_;
     DescribedEquilibrium here_;
-    std::vector<SpecialPoint> found_;
-    BranchOutcome outcome_ = BranchOutcome::no_start;
-    std::string detail_;
     double arclength_ = 0; ///< of the branch where the continuation has been started anew
     int changes_of_mode_ = 0;
     std::size_t steps_ = 0;
-    bool ended_ = true;
 };
 
 bool EquilibriumFollower::begin(bool begun) {
@@ -240,28 +227,16 @@ bool EquilibriumFollower::step() {
     return true;
 }
 
-void EquilibriumFollower::end_at(std::size_t i, BranchOutcome how, std::string why) {
-    found_.resize(i + 1);
-    const SpecialPoint& last = found_[i];
-    here_.point.solution = last.solution;
-    here_.point.parameter = last.parameter;
-    here_.point.arclength = last.arclength;
-    here_.point.tangent = last.tangent;
-    here_.point.monitors = last.monitors;
-    here_.point.stable = is_stable(last.solution);
-    finish(how, std::move(why));
-}
-
 /// Ends the branch, or changes its mode, at the special points found.
 void EquilibriumFollower::end_or_go_on(const DescribedEquilibrium& before) {
     for (std::size_t i = 0; i < found_.size(); ++i) {
         const PointType type = found_[i].type;
         if (type == PointType::bound)
-            return end_at(i, BranchOutcome::bound, "");
+            return finish_at(i, BranchOutcome::bound, "");
         if (std::ranges::count(settings_.stop_at, type) > 0)
-            return end_at(i, BranchOutcome::stopped, std::string(name_of(type)));
+            return finish_at(i, BranchOutcome::stopped, std::string(name_of(type)));
         if (type == PointType::takens_bogdanov && path_->keeps(PointType::hopf))
-            return end_at(i, BranchOutcome::stopped, "beyond, the two eigenvalues are real");
+            return finish_at(i, BranchOutcome::stopped, "beyond, the two eigenvalues are real");
         const bool leaves =
             type == PointType::boundary_equilibrium && !settings_.kept && settings_.stop_when_unphysical &&
             path_->model().events[found_[i].event].kind == EventKind::barrier &&
@@ -271,7 +246,7 @@ void EquilibriumFollower::end_or_go_on(const DescribedEquilibrium& before) {
         found_.resize(i + 1);
         if (settings_.reorder && goes_on_in_other_mode(found_[i]))
             return;
-        return end_at(i, BranchOutcome::unphysical, here_.point.solution.certificate.reason);
+        return finish_at(i, BranchOutcome::unphysical, here_.point.solution.certificate.reason);
     }
     if (settings_.stop_when_unphysical && before.point.solution.certificate.admissible &&
         !here_.point.solution.certificate.admissible)

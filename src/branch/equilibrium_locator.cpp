@@ -3,6 +3,7 @@
 #include "base/special_numbers.hpp"
 #include "branch/boundary_equilibrium.hpp"
 #include "branch/bounds.hpp"
+#include "branch/branch_state.hpp"
 
 #include <fmt/format.h>
 
@@ -126,14 +127,8 @@ std::optional<SpecialPoint> EquilibriumLocator::locate(std::size_t test, const B
     }
     if (!there)
         return std::nullopt;
-    SpecialPoint special;
-    special.type = known.type;
-    special.solution = there->point.solution;
-    special.parameter = there->point.parameter;
+    SpecialPoint special = special_of_type(known.type, there->point);
     special.bracket = std::minmax(before.point.parameter, here.point.parameter);
-    special.arclength = there->point.arclength;
-    special.tangent = there->point.tangent;
-    special.monitors = there->point.monitors;
     special.event = known.event;
     const double size = std::max(std::abs(bracket.first.value), std::abs(bracket.second.value));
     return confirm(special, there->tests[test], *there, size) ? std::optional(special) : std::nullopt;
@@ -235,19 +230,14 @@ std::optional<SpecialPoint> EquilibriumLocator::crossing_of_several(const Descri
     const std::vector<std::complex<double>>& all = there->point.solution.eigenvalues;
     const auto nearest =
         std::ranges::min_element(all, {}, [](std::complex<double> one) { return std::abs(one.real()); });
-    SpecialPoint special;
-    special.type = nearest != all.end() && nearest->imag() != 0 ? PointType::hopf : PointType::branch_point;
+    const bool turns = nearest != all.end() && nearest->imag() != 0;
+    SpecialPoint special = special_of_type(turns ? PointType::hopf : PointType::branch_point, there->point);
     special.located = false;
     special.detail =
         fmt::format("the number of unstable eigenvalues changes from {} to {} at once: what begins there is "
                     "not computed",
                     before.unstable, here.unstable);
-    special.solution = there->point.solution;
-    special.parameter = there->point.parameter;
     special.bracket = std::minmax(before.point.parameter, here.point.parameter);
-    special.arclength = there->point.arclength;
-    special.tangent = there->point.tangent;
-    special.monitors = there->point.monitors;
     return special;
 }
 

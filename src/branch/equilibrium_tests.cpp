@@ -46,18 +46,6 @@ std::optional<std::complex<double>> nearest_pair(const Eigenvalues& eigenvalues)
     return nearest;
 }
 
-/// The values of an event's function that cannot be told from zero.
-double noise_of(const Function& function, std::span<const double> inputs, std::span<const double> values,
-                std::size_t states) {
-    std::vector<double> bounds(function.outputs()), work(2 * function.workspace());
-    const std::vector<double> exact(inputs.size(), 0.0);
-    function.error_bounds(inputs, exact, bounds, work);
-    double size = 0;
-    for (std::size_t i = 0; i < states; ++i)
-        size += std::abs(values[1 + i] * inputs[i]);
-    return std::max(smallest_clearance * size, 4 * bounds[0]);
-}
-
 } // namespace
 
 Eigenvalues without_pair(Eigenvalues eigenvalues, double product) {
@@ -79,7 +67,8 @@ double product_of_nearest_pair(const Eigenvalues& eigenvalues) {
 }
 
 EquilibriumPath::EquilibriumPath(const System& system, const Orbit& candidate, const BranchSettings& settings)
-    : settings_(settings), problem_(std::make_shared<EquilibriumProblem>(system, candidate, settings)) {
+    : settings_(settings), problem_(std::make_shared<EquilibriumProblem>(system, candidate, settings)),
+      monitors_(system, settings.monitors) {
     for (const Monitor& monitor : settings.monitors) {
         if (!monitor.segment.empty() && monitor.segment != "1")
             throw InputError(
@@ -90,7 +79,6 @@ EquilibriumPath::EquilibriumPath(const System& system, const Orbit& candidate, c
             throw InputError(
                 fmt::format("monitor '{}' cannot be held: an equilibrium has no periods and multipliers", monitor.name),
                 "hold a value of an expression");
-        monitors_.push_back(is_value ? system.with_gradient(monitor.expression) : Function());
     }
     EquilibriumEvaluation at;
     if (!problem_->describe(problem_->unknowns_of(candidate), at))
@@ -105,8 +93,8 @@ void EquilibriumPath::hold(const EquilibriumEvaluation& at) {
         if (!monitor.fixed)
             continue;
         if (!monitor.held)
-            monitor.held = monitors_[m](concatenated(at.state, at.parameters))[0];
-        problem_->hold(std::make_unique<HeldFunction>(monitors_[m], *monitor.held, at));
+            monitor.held = monitors_.function(m)(concatenated(at.state, at.parameters))[0];
+        problem_->hold(std::make_unique<HeldFunction>(monitors_.function(m), *monitor.held, at));
     }
     if (!settings_.kept)
         return;
@@ -142,19 +130,6 @@ std::optional<HopfForm> EquilibriumPath::form_at(const EquilibriumEvaluation& at
     return hopf_form(at, third_ ? *third_ : EquilibriumThirdDerivatives(problem_->equations()), product);
 }
 
-std::vector<double> EquilibriumPath::monitored(const Orbit& orbit) const {
-    const std::vector<double> inputs = concatenated(orbit.starts[0], orbit.parameters);
-    std::vector<double> values;
-    for (std::size_t m = 0; m < settings_.monitors.size(); ++m) {
-        const Monitor::Kind kind = settings_.monitors[m].kind;
-        const double value = kind == Monitor::Kind::duration     ? 0
-                             : kind == Monitor::Kind::multiplier ? not_a_number
-                                                                 : monitors_[m](inputs)[0];
-        values.push_back(kind == Monitor::Kind::norm ? std::abs(value) : value);
-    }
-    return values;
-}
-
 std::optional<DescribedEquilibrium> EquilibriumPath::describe(const ContinuationPoint& at) const {
     DescribedEquilibrium there;
     there.at = at;
@@ -168,7 +143,7 @@ std::optional<DescribedEquilibrium> EquilibriumPath::describe(const Continuation
     solution.residual = there.evaluation.rates.size() > 0 ? there.evaluation.rates.cwiseAbs().maxCoeff() /
                                                                 std::max(there.evaluation.field.norm(), 1e-300)
                                                           : 0;
-    solution.eigenvalues = eigenvalues_at(problem_->equations(), there.evaluation.state, there.evaluation.parameters);
+    solution.eigenvalues = sorted_eigenvalues(problem_->equations(), there.evaluation.field);
     solution.certificate = certify_equilibrium(problem_->equations(), solution.orbit);
     there.unstable = unstable_directions(solution);
     point.parameter = solution.orbit.parameters[settings_.parameter.place()];
@@ -176,7 +151,7 @@ std::optional<DescribedEquilibrium> EquilibriumPath::describe(const Continuation
     point.stable = is_stable(solution);
     point.iterations = at.iterations;
     point.tangent = problem_->direction_of(at.tangent);
-    point.monitors = monitored(solution.orbit);
+    point.monitors = monitors_(solution.orbit);
     add_tests(there);
     return there;
 }
@@ -242,7 +217,7 @@ void EquilibriumPath::add_events(DescribedEquilibrium& there) const {
         there.tests.push_back({.type = PointType::boundary_equilibrium,
                                .event = event,
                                .value = values[0],
-                               .noise = noise_of(function, inputs, values, there.evaluation.state.size())});
+                               .noise = event_round_off(function, inputs, values, there.evaluation.state.size())});
     }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "branch/equilibrium_conditions.hpp"
+#include "branch/equilibrium_monitors.hpp"
 #include "branch/equilibrium_normal_form.hpp"
 #include "branch/point_kind.hpp"
 #include "graze/branch/continuation.hpp"
@@ -46,11 +47,10 @@ private:
     void add_events(DescribedEquilibrium& there) const;
     void add_extrema(DescribedEquilibrium& there) const;
     void add_crossings(DescribedEquilibrium& there) const;
-    std::vector<double> monitored(const Orbit& orbit) const;
 
     BranchSettings settings_;
     std::shared_ptr<EquilibriumProblem> problem_;
-    std::vector<Function> monitors_;
+    EquilibriumMonitors monitors_;
     std::shared_ptr<const EquilibriumThirdDerivatives> third_; ///< of a curve of Hopf points
     FoldBorders borders_;                                      ///< of a curve of folds
     double product_ = 0;                                       ///< of the pair of a curve of Hopf points

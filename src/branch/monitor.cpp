@@ -2,6 +2,7 @@
 
 #include "base/concatenated.hpp"
 #include "base/read_whole.hpp"
+#include "branch/equilibrium_monitors.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 #include "graze/flow/roots.hpp"
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace graze {
 
@@ -85,6 +87,8 @@ public:
             if (is_at_point(monitor.kind) && !segments.back())
                 segments.back() = 0;
         }
+        if (is_rest(signature) && !at_rest_)
+            at_rest_.emplace(system_, monitors_);
         signature_ = signature;
         segments_ = std::move(segments);
     }
@@ -100,7 +104,7 @@ public:
         if (orbit.signature != signature_)
             throw InputError("the orbit does not have the signature of the monitors", "make them anew for it");
         if (is_rest(signature_))
-            return values_at_rest(orbit);
+            return (*at_rest_)(orbit);
         totals_.assign(monitors_.size(), {});
         values_.assign(monitors_.size(), std::numeric_limits<double>::quiet_NaN());
         flow_.set_parameters(orbit.parameters);
@@ -118,20 +122,6 @@ public:
     }
 
 private:
-    /// Values at an equilibrium, which has no extent.
-    std::vector<double> values_at_rest(const Orbit& orbit) const {
-        const std::vector<double> inputs = concatenated(orbit.starts[0], orbit.parameters);
-        std::vector<double> values;
-        for (const Monitor& monitor : monitors_)
-            values.push_back(monitor.kind == Monitor::Kind::duration ? 0
-                             : monitor.kind == Monitor::Kind::multiplier
-                                 ? std::numeric_limits<double>::quiet_NaN()
-                                 : system_.function_of({&monitor.expression, 1})(inputs)[0]);
-        for (std::size_t m = 0; m < values.size(); ++m)
-            if (monitors_[m].kind == Monitor::Kind::norm)
-                values[m] = std::abs(values[m]);
-        return values;
-    }
     /// Values accumulated step by step.
     struct Total {
         double least = std::numeric_limits<double>::infinity();
@@ -252,6 +242,7 @@ private:
     SegmentArcsFinder arcs_of_;
     RootFinder roots_;
     std::vector<std::optional<std::size_t>> segments_;
+    std::optional<EquilibriumMonitors> at_rest_; ///< made for the first signature of an equilibrium
     std::vector<Function> functions_;
     std::vector<Total> totals_;
     std::vector<double> values_, coefficients_, derivative_;

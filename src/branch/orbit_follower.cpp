@@ -110,9 +110,6 @@ public:
     }
 
     const BranchPoint& point() const override { return here_.point; }
-    const std::vector<SpecialPoint>& found_points() const override { return found_; }
-    BranchOutcome how_ended() const override { return outcome_; }
-    const std::string& why_ended() const override { return detail_; }
 
 private:
     /// Largest number of repetitions of a step, and of changes of the signature.
@@ -321,16 +318,6 @@ private:
             finish(BranchOutcome::bound, "");
         return true;
     }
-    bool end(BranchOutcome how, std::string why) {
-        finish(how, std::move(why));
-        return false;
-    }
-    void finish(BranchOutcome how, std::string why) {
-        ended_ = true;
-        outcome_ = how;
-        detail_ = std::move(why);
-    }
-
     /// Continues with orbits of another signature beyond a point. @return false when none are found
     bool continue_reordered(SpecialPoint& special) {
         if (++reorderings_ > most_reorderings)
@@ -367,18 +354,8 @@ private:
                (special.type == PointType::resonance_1 || special.type == PointType::resonance_2);
     }
 
-    /// Moves the end of the branch to special point i.
-    void end_at(std::size_t i) {
-        found_.resize(i + 1);
-        here_.point.solution = found_[i].solution;
-        here_.point.parameter = found_[i].parameter;
-        here_.point.arclength = found_[i].arclength;
-        here_.point.tangent = found_[i].tangent;
-        here_.point.monitors = found_[i].monitors;
-        here_.point.stable = is_stable(here_.point.solution);
-    }
     void finish_at(std::size_t i, BranchOutcome how, std::string why) {
-        end_at(i);
+        end_at(i, here_.point);
         finish(how, std::move(why));
     }
     /// Returns why orbits beyond special point i are inadmissible; empty if they are admissible. Admissibility is
@@ -418,7 +395,7 @@ private:
             const std::string reason = may_end ? unphysical_beyond(i) : "";
             if (reason.empty())
                 continue;
-            end_at(i);
+            end_at(i, here_.point);
             // With another signature, a kept point that belongs to a segment is only found again if it is a touch.
             const auto& kept = state_.settings().kept;
             const bool reordering = state_.settings().reorder && !is_grazing(type) &&
@@ -435,9 +412,6 @@ private:
     }
 
     DescribedPoint here_; ///< the last point
-    std::vector<SpecialPoint> found_;
-    BranchOutcome outcome_ = BranchOutcome::no_start;
-    std::string detail_;
     BranchState state_;
     Orbit candidate_;
     PointLocator locator_;
@@ -449,7 +423,6 @@ private:
     SimplerEnd simpler_end_;
     ChatterEnd chatter_end_;
     int attempts_ = 0; ///< number of repetitions of the current step
-    bool ended_ = true;
 };
 
 } // namespace

@@ -224,9 +224,13 @@ double neutral_growth(std::span<const std::complex<double>> eigenvalues) {
 std::vector<std::complex<double>> eigenvalues_at(const EquilibriumEquations& equations, std::span<const double> state,
                                                  std::span<const double> parameters) {
     const Eigen::VectorXd scales = scales_of_equilibrium(equations, state, parameters, {});
-    const Eigen::MatrixXd field = scales.cwiseInverse().asDiagonal() *
-                                  equations.jacobian(state, parameters).leftCols(equations.size()) *
-                                  scales.asDiagonal();
+    return sorted_eigenvalues(equations, scales.cwiseInverse().asDiagonal() *
+                                             equations.jacobian(state, parameters).leftCols(equations.size()) *
+                                             scales.asDiagonal());
+}
+
+std::vector<std::complex<double>> sorted_eigenvalues(const EquilibriumEquations& equations,
+                                                     const Eigen::MatrixXd& field) {
     const auto found = field.allFinite() && field.size() > 0 ? eigenvalues(field) : std::nullopt;
     std::vector<std::complex<double>> sorted;
     if (found)
@@ -243,6 +247,18 @@ std::vector<std::complex<double>> eigenvalues_at(const EquilibriumEquations& equ
     return sorted;
 }
 
+double event_round_off(const Function& function, std::span<const double> inputs, std::span<const double> values,
+                       std::size_t states) {
+    std::vector<double> bounds(function.outputs()), work(2 * function.workspace());
+    const std::vector<double> exact(inputs.size(), 0.0);
+    function.error_bounds(inputs, exact, bounds, work);
+    // The function may be as uncertain as the states on which it depends.
+    double size = 0;
+    for (std::size_t i = 0; i < states; ++i)
+        size += std::abs(values[1 + i] * inputs[i]);
+    return std::max(smallest_clearance * size, 4 * bounds[0]);
+}
+
 Certificate certify_equilibrium(const EquilibriumEquations& equations, const Orbit& orbit) {
     const Model& model = equations.system().model();
     const std::vector<double> inputs = concatenated(orbit.starts[0], orbit.parameters);
@@ -252,18 +268,11 @@ Certificate certify_equilibrium(const EquilibriumEquations& equations, const Orb
     certificate.guard_margins = {infinity};
     for (const std::size_t event : model.modes[equations.mode()].watched) {
         const Function& function = equations.system().event(event);
-        std::vector<double> values(function.outputs()), bounds(function.outputs()), work(2 * function.workspace());
-        const std::vector<double> exact(inputs.size(), 0.0);
-        function.evaluate(inputs, values, work);
+        const std::vector<double> values = function(inputs);
         certificate.end_values.push_back({0, event, values[0], 0});
         if (model.events[event].kind != EventKind::barrier || !certificate.admissible)
             continue;
-        // The function may be as uncertain as the states on which it depends.
-        double size = 0;
-        for (std::size_t i = 0; i < orbit.starts[0].size(); ++i)
-            size += std::abs(values[1 + i] * orbit.starts[0][i]);
-        function.error_bounds(inputs, exact, bounds, work);
-        if (values[0] < -std::max(smallest_clearance * size, 4 * bounds[0])) {
+        if (values[0] < -event_round_off(function, inputs, values, orbit.starts[0].size())) {
             certificate.admissible = false;
             certificate.reason = fmt::format("the equilibrium lies beyond '{}'", model.events[event].name);
         }

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "graze/branch/monitor.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace graze {
+
+/// Evaluates monitors at equilibria, which have no extent: all values of an expression are those of its state.
+class EquilibriumMonitors {
+public:
+    EquilibriumMonitors(const System& system, std::vector<Monitor> monitors);
+
+    /// One value per monitor; 0 for durations, NaN for multipliers.
+    std::vector<double> operator()(const Orbit& orbit) const;
+    /// Value of a monitor's expression, then its derivatives with respect to states and parameters.
+    const Function& function(std::size_t monitor) const { return functions_[monitor]; }
+
+private:
+    std::vector<Monitor> monitors_;
+    std::vector<Function> functions_; ///< empty for durations and multipliers
+};
+
+} // namespace graze
