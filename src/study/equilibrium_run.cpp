@@ -22,7 +22,7 @@ std::string search_in_words(const EquilibriumSearch& search) {
     if (!search.problem.empty())
         words.push_back(search.problem);
     else if (search.complete)
-        words.push_back(fmt::format("in the box {}, by proof{}",
+        words.push_back(fmt::format("in the box {}{}, by proof",
                                     count == 1 ? "is one equilibrium" : fmt::format("are {} equilibria", count),
                                     search.condition));
     if (search.complete && !search.undecided.empty())
