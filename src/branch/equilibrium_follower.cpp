@@ -108,7 +108,6 @@ bool EquilibriumFollower::begin(bool begun) {
         return end(BranchOutcome::bound, "the first equilibrium lies beyond a bound");
     ended_ = false;
     locator_->forget();
-    path_->accept(here_.evaluation);
     place_in_branch();
     if (leads_beyond())
         finish(BranchOutcome::bound, "");
@@ -207,7 +206,6 @@ bool EquilibriumFollower::step() {
         return end(BranchOutcome::stopped, "the two eigenvalues are real");
     }
     ++steps_;
-    path_->accept(here_.evaluation);
     place_in_branch();
     constexpr double same_place = 1e-6; // a branch that begins at a special point must not report that point
     const double length = here_.at.arclength - before.at.arclength;

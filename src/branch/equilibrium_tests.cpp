@@ -100,12 +100,11 @@ void EquilibriumPath::hold(const EquilibriumEvaluation& at) {
         return;
     switch (settings_.kept->type) {
     case PointType::fold:
-        problem_->hold(std::make_unique<EquilibriumFold>(at));
-        borders_.choose(at.field, at.jacobian.norm());
+        fold_ = keep(std::make_unique<EquilibriumFold>(at));
         break;
     case PointType::hopf:
-        product_ = product_of_nearest_pair(settings_.kept->solution.eigenvalues);
-        problem_->hold(std::make_unique<EquilibriumHopf>(at, product_));
+        hopf_ =
+            keep(std::make_unique<EquilibriumHopf>(at, product_of_nearest_pair(settings_.kept->solution.eigenvalues)));
         third_ = std::make_shared<const EquilibriumThirdDerivatives>(problem_->equations());
         break;
     case PointType::boundary_equilibrium:
@@ -116,14 +115,6 @@ void EquilibriumPath::hold(const EquilibriumEvaluation& at) {
                                      short_name(settings_.kept->type)),
                          "follow a fold, a Hopf point or a boundary equilibrium");
     }
-}
-
-void EquilibriumPath::accept(const EquilibriumEvaluation& at) {
-    if (keeps(PointType::fold))
-        borders_.choose(at.field, at.jacobian.norm());
-    if (keeps(PointType::hopf))
-        if (const auto pair = eigenvalue_pair(at.field, product_))
-            product_ = pair->product;
 }
 
 std::optional<HopfForm> EquilibriumPath::form_at(const EquilibriumEvaluation& at, double product) const {
@@ -184,7 +175,7 @@ void EquilibriumPath::add_tests_of_kept(DescribedEquilibrium& there) const {
     const Eigen::Index n = there.evaluation.size();
     const Eigenvalues& eigenvalues = there.point.solution.eigenvalues;
     if (keeps(PointType::fold)) {
-        const auto null = borders_.at(there.evaluation.field);
+        const auto null = fold_->borders().at(there.evaluation.field);
         const auto bend = [&] {
             return null->left.dot(there.evaluation.second(null->right).leftCols(n) * null->right);
         };
@@ -193,9 +184,10 @@ void EquilibriumPath::add_tests_of_kept(DescribedEquilibrium& there) const {
         add(PointType::zero_hopf, growth_of_nearest_pair(eigenvalues));
         return;
     }
-    const auto form = form_at(there.evaluation, product_);
-    const auto pair = eigenvalue_pair(there.evaluation.field, product_);
-    const Eigenvalues others = without_pair(eigenvalues, product_);
+    const double product = hopf_->product();
+    const auto form = form_at(there.evaluation, product);
+    const auto pair = eigenvalue_pair(there.evaluation.field, product);
+    const Eigenvalues others = without_pair(eigenvalues, product);
     std::complex<double> rest = 1;
     for (const auto one : others)
         rest *= one / there.evaluation.field.norm();

@@ -37,11 +37,15 @@ public:
     std::optional<DescribedEquilibrium> describe(const ContinuationPoint& at) const;
     /// The normal form at a Hopf point with this product of the pair; empty where it does not exist.
     std::optional<HopfForm> form_at(const EquilibriumEvaluation& at, double product) const;
-    /// Prepares the next step from an accepted point.
-    void accept(const EquilibriumEvaluation& at);
 
 private:
     void hold(const EquilibriumEvaluation& at);
+    template <class Condition>
+    const Condition* keep(std::unique_ptr<Condition> condition) {
+        const Condition* const kept = condition.get();
+        problem_->hold(std::move(condition));
+        return kept;
+    }
     void add_tests(DescribedEquilibrium& there) const;
     void add_tests_of_kept(DescribedEquilibrium& there) const;
     void add_events(DescribedEquilibrium& there) const;
@@ -51,9 +55,10 @@ private:
     BranchSettings settings_;
     std::shared_ptr<EquilibriumProblem> problem_;
     EquilibriumMonitors monitors_;
+    // Of a curve of folds or of Hopf points: its condition, which the problem owns and keeps up to date.
+    const EquilibriumFold* fold_ = nullptr;
+    const EquilibriumHopf* hopf_ = nullptr;
     std::shared_ptr<const EquilibriumThirdDerivatives> third_; ///< of a curve of Hopf points
-    FoldBorders borders_;                                      ///< of a curve of folds
-    double product_ = 0;                                       ///< of the pair of a curve of Hopf points
 };
 
 /// Returns the eigenvalues without the two whose sum is nearest to zero and whose product is nearest to the given one.

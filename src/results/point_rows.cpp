@@ -80,7 +80,9 @@ public:
         PointRecord point = read_point(points_, *run_);
         read_samples(point.number, point.result.samples);
         point.result.multipliers = multipliers_.of_point(*run_, point.number);
-        point.result.eigenvalues = eigenvalues_.of_point(*run_, point.number);
+        // Other points have none, and a query for each of millions of points would take time.
+        if (point.result.label == Label::equilibrium)
+            point.result.eigenvalues = eigenvalues_.of_point(*run_, point.number);
         return point;
     }
 
