@@ -60,7 +60,8 @@ if(GRAZE_SANITIZERS)
             list(APPEND sanitize -fno-sanitize=null,alignment,object-size,vptr)
         endif()
     endif()
-    target_compile_options(graze_options INTERFACE ${sanitize})
+    # Targets with this property are compiled without: see cmake/kernels.cmake.
+    target_compile_options(graze_options INTERFACE "$<$<NOT:$<BOOL:$<TARGET_PROPERTY:GRAZE_UNSANITIZED>>>:${sanitize}>")
     target_link_options(graze_options INTERFACE ${sanitize})
 endif()
 
