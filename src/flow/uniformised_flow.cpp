@@ -84,7 +84,8 @@ ModeFlow::Ending UniformisedFlow::follow(const UniformisedRoot& root, double dur
     }
     for (int phase = 0; phase < most_phases; ++phase) {
         const double left = duration - time_;
-        if (std::abs(left) <= same_time * std::abs(duration)) {
+        // Near a zero the root knows more digits than the states do: a phase that has found its end is not begun again.
+        if (reached_end_ || std::abs(left) <= same_time * std::abs(duration)) {
             find_field(root, reached_end_ ? state_[states_] : 0);
             for (std::size_t i = 0; i < states_; ++i)
                 state_[i] += left * field_[i];

@@ -24,7 +24,8 @@ constexpr double least_share_left = 1e-2;
 /// difference of the two integration rules, relative to the state or to its change.
 constexpr double first_leave = 1e-12, last_leave = 1e-9, leave_accuracy = 1e-15;
 /// The same by the flow in which the motion is analytic there: the largest share, and the first one divided by it.
-constexpr double longest_leave = 1e-5, shortest_leave = 1e-7;
+/// The first arc of a trajectory has a time scale of its own, which is that of the contact if this is shallow.
+constexpr double longest_leave = 1e-5, shortest_leave = 1e-7, first_arc_leave = 0.1;
 /// Factor by which the radicand must exceed its initial value, which is zero but for round-off.
 constexpr double clear_of_zero = 100;
 /// Where the motion is as close to a zero of a radicand as the resolution of time allows, it is extrapolated to this
@@ -220,7 +221,9 @@ bool Trajectory::leave_branch() {
     }
     const double remaining = (end_time_ - time_) - time_low_;
     if (compiled_mode_->ends_at_root)
-        if (const double left = leave_root(std::min(longest_leave * scale, 0.5 * remaining)); left > 0) {
+        if (const double left =
+                leave_root(std::min((largest_step_ > 0 ? longest_leave : first_arc_leave) * scale, 0.5 * remaining));
+            left > 0) {
             add_time(left);
             wrap_cyclic_states(false);
             return true;

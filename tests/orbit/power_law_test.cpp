@@ -119,8 +119,8 @@ TEST(PowerLaw, MultipliersOfAForcedContactAreThoseOfAnotherIntegrator) {
                       ModeFlow::Ending::done);
             loss += state[3] - before;
         }
-        // A flow that ends just before the zero is begun again there, where half the digits of the distance are left.
-        EXPECT_NEAR(std::abs(solution.multipliers[0] * solution.multipliers[1] - std::exp(-loss)), 0, 3e-8) << exponent;
+        EXPECT_NEAR(std::abs(solution.multipliers[0] * solution.multipliers[1] - std::exp(-loss)), 0, 1e-10)
+            << exponent;
         EXPECT_TRUE(solution.certificate.admissible) << solution.certificate.reason;
     }
 }

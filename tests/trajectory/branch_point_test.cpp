@@ -134,7 +134,7 @@ TEST(BranchPoint, ShallowContactsTakeFewSteps) {
                                     "transitions = [{ mode = 'contact', event = 'loss', next = 'free' }]\n"
                                     "initial.mode = 'contact'\n",
                                     "wall.toml");
-    for (const double v : {1.0, 1e-2, 1e-3, 1e-4}) {
+    for (const double v : {1.0, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
         Experiment experiment(model, {.step_limit = 1000});
         const Outcome outcome = experiment.run_from({0.5, v}, 0, 3);
         ASSERT_EQ(outcome.ending, Ending::end_time) << v << outcome.detail;
