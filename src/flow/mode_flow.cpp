@@ -1,5 +1,6 @@
 #include "graze/flow/mode_flow.hpp"
 
+#include "flow/uniformised_flow.hpp"
 #include "graze/base/require.hpp"
 
 #include <algorithm>
@@ -16,6 +17,10 @@ constexpr std::size_t most_steps_of_mode = 2'000'000;
 constexpr double smallest_share = 1e-14;
 /// Fraction of an arc over which sizes are measured where the initial state does not show them.
 constexpr double first_share = 1e-10;
+/// Share of a duration within which steps beside a zero of a radicand are not shown.
+constexpr double hidden_share = 1e-11;
+/// The first step after it is about this share of it; shorter ones lead to the zero at the end.
+constexpr double shortest_shown = 1e-2;
 /// A step longer than the last one by more than this factor is also checked at interior times.
 constexpr double longest_leap = 2;
 
@@ -42,7 +47,8 @@ ModeFlow::ModeFlow(const System& system, double tolerance, int order, std::vecto
       jets_(system, order_of(tolerance, order), LaneKind::single),
       tangents_(system, tolerance, directions_), allowance_{StepCheck::allowance * tolerance,
                                                             StepCheck::value_allowance * tolerance,
-                                                            StepCheck::smallest_size} {
+                                                            StepCheck::smallest_size},
+      tolerance_(tolerance), order_(order) {
     if (directions_ > 0)
         jets_.add_tangents();
     for (const ParameterId parameter : free_)
@@ -57,6 +63,10 @@ ModeFlow::ModeFlow(const System& system, double tolerance, int order, std::vecto
     next_.resize(states_ * directions_);
     matrix_.resize(states_ * directions_);
 }
+
+ModeFlow::~ModeFlow() = default;
+ModeFlow::ModeFlow(ModeFlow&&) noexcept = default;
+ModeFlow& ModeFlow::operator=(ModeFlow&&) noexcept = default;
 
 void ModeFlow::require_fitting(std::size_t mode, std::span<const double> state) const {
     require_index(mode, system_.model().modes.size(), "mode");
@@ -73,6 +83,8 @@ void ModeFlow::set_parameters(std::span<const double> parameters) {
     step_check_.set_parameters(parameters_);
     dormant_states_.set_parameters(parameters_);
     tangents_.set_parameters(parameters_, parameter_seeds_);
+    if (uniformised_)
+        uniformised_->set_parameters(parameters_);
 }
 
 /// Compares all states and events with the model at once; the result also begins the next step.
@@ -118,25 +130,81 @@ double ModeFlow::step_of(std::size_t mode, const Jet& jet, double remaining, boo
     return longest < std::abs(remaining) ? std::copysign(longest, remaining) : remaining;
 }
 
+/// Returns the flow through zeros of radicands, if the mode ends at one; null otherwise.
+UniformisedFlow* ModeFlow::uniformised(std::size_t mode) {
+    if (!system_.mode(mode).ends_at_root)
+        return nullptr;
+    if (system_.uniformised().roots(mode).empty())
+        return nullptr;
+    if (!uniformised_) {
+        uniformised_ = std::make_unique<UniformisedFlow>(system_, tolerance_, order_, free_, starts_);
+        uniformised_->set_parameters(parameters_);
+    }
+    return uniformised_.get();
+}
+
+/// Runs through zeros of radicands. Steps in time, which become short near these, are made besides for `visit`.
+ModeFlow::Ending ModeFlow::run_uniformised(std::size_t mode, std::span<double> state, double duration,
+                                           std::span<double> derivatives, const StepVisitor& visit) {
+    if (!std::isfinite(duration))
+        return Ending::undefined;
+    if (visit && duration != 0) {
+        const double hidden = hidden_share * duration;
+        std::vector<double> here(state.begin(), state.end());
+        bool first = true;
+        const StepVisitor visit_from_start = [&](const Jet& jet, double time, double length) {
+            visit(jet, first ? 0 : hidden + time, first ? hidden + length : length);
+            first = false;
+        };
+        const StepEnd too_short = [&](const Jet&, double& length) {
+            return std::abs(length) < shortest_shown * std::abs(hidden);
+        };
+        if (uniformised_->run(mode, here, hidden, {}) == Ending::done)
+            follow(mode, here, duration - hidden, {.visit = &visit_from_start, .end = &too_short});
+    }
+    const std::size_t before = uniformised_->steps();
+    const Ending ending = uniformised_->run(mode, state, duration, derivatives);
+    steps_ += uniformised_->steps() - before;
+    return ending;
+}
+
 ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double duration, const StepVisitor& visit) {
     require_fitting(mode, state);
+    if (uniformised(mode) != nullptr)
+        return run_uniformised(mode, state, duration, {}, visit);
+    return follow(mode, state, duration, {.visit = visit ? &visit : nullptr});
+}
+
+ModeFlow::Ending ModeFlow::run_until(std::size_t mode, std::span<double> state, double longest, const StepEnd& end,
+                                     std::span<double> derivatives) {
+    require_fitting(mode, state);
+    if (derivatives.empty())
+        return follow(mode, state, longest, {.end = &end});
+    require_size(derivatives.size(), states_ * directions_, "derivatives");
+    return follow(mode, state, longest, derivatives, {.end = &end});
+}
+
+ModeFlow::Ending ModeFlow::follow(std::size_t mode, std::span<double> state, double duration,
+                                  const Watchers& watchers) {
     if (!std::isfinite(duration))
         return Ending::undefined;
     double time = 0, remaining = duration;
     previous_ = 0;
     dormant_states_.begin();
-    for (std::size_t count = 0; remaining != 0; ++count) {
+    bool ends = false;
+    for (std::size_t count = 0; remaining != 0 && !ends; ++count) {
         if (count >= most_steps_of_mode)
             return Ending::too_long;
         const Jet& jet = jets_.computed(mode, state);
         seen_ = 0;
-        const double step = step_of(mode, jet, remaining, static_cast<bool>(visit));
+        double step = step_of(mode, jet, remaining, watchers.needs_events());
         if (std::isnan(step))
             return Ending::undefined;
         if (std::abs(step) < std::abs(duration) * smallest_share && step != remaining)
             return Ending::singular;
-        if (visit)
-            visit(jet, time, step);
+        ends = watchers.end != nullptr && (*watchers.end)(jet, step);
+        if (watchers.visit != nullptr)
+            (*watchers.visit)(jet, time, step);
         if (seen_ != step)
             jet.evaluate_states({&step, 1}, sums_);
         std::copy_n(sums_.begin(), states_, state.begin());
@@ -170,6 +238,18 @@ ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double
     if (watched)
         watched->begin(events);
     const bool with_events = watched && events > 0;
+    if (uniformised(mode) == nullptr)
+        return follow(mode, state, duration, derivatives, {.watched = with_events ? watched : nullptr});
+    if (!with_events)
+        return run_uniformised(mode, state, duration, derivatives, {});
+    return run_uniformised(mode, state, duration, derivatives, [&](const Jet& jet, double time, double length) {
+        watched->note(jet);
+        watched->end_step(time, length);
+    });
+}
+
+ModeFlow::Ending ModeFlow::follow(std::size_t mode, std::span<double> state, double duration,
+                                  std::span<double> derivatives, const Watchers& watchers) {
     if (!std::isfinite(duration))
         return Ending::undefined;
     std::fill(matrix_.begin(), matrix_.end(), 0.0);
@@ -178,27 +258,30 @@ ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double
     double time = 0, remaining = duration;
     previous_ = 0;
     dormant_states_.begin();
-    for (std::size_t count = 0; remaining != 0; ++count) {
+    bool ends = false;
+    for (std::size_t count = 0; remaining != 0 && !ends; ++count) {
         if (count >= most_steps_of_mode)
             return Ending::too_long;
         Jet& jet = jets_.computed(mode, state);
         seen_ = 0;
-        const double wanted = step_of(mode, jet, remaining, with_events);
+        double wanted = step_of(mode, jet, remaining, watchers.needs_events());
         if (std::isnan(wanted))
             return Ending::undefined;
-        if (with_events)
-            watched->note(jet);
+        ends = watchers.end != nullptr && (*watchers.end)(jet, wanted);
+        if (watchers.watched != nullptr)
+            watchers.watched->note(jet);
         tangents_.begin(jet, mode, state, matrix_);
         const std::span<const double> end =
             seen_ == wanted ? std::span<const double>(sums_).first(states_) : std::span<const double>{};
         const double step = tangents_.carry(jets_.next(mode), wanted, next_, end);
         if (std::isnan(step))
             return Ending::undefined;
-        if (std::abs(step) < std::abs(duration) * smallest_share && step != remaining)
+        ends = ends && step == wanted;
+        if (std::abs(step) < std::abs(duration) * smallest_share && step != remaining && !ends)
             return Ending::singular;
         std::copy(tangents_.state().begin(), tangents_.state().end(), state.begin());
-        if (with_events)
-            watched->end_step(time, step);
+        if (watchers.watched != nullptr)
+            watchers.watched->end_step(time, step);
         matrix_.swap(next_);
         ++steps_;
         time += step;

@@ -1,6 +1,7 @@
 #include "graze/flow/system.hpp"
 
 #include "flow/section_function.hpp"
+#include "flow/uniformised_system.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/symbolic/linearisation.hpp"
 #include "graze/symbolic/transform.hpp"
@@ -95,6 +96,12 @@ struct System::LinearModes {
     std::vector<Item> items;
 };
 
+/// The same in variables in which radicands may vanish.
+struct System::Uniformised {
+    std::once_flag compiled;
+    std::optional<UniformisedSystem> system;
+};
+
 System::System(const Model& model) {
     auto parts = std::make_shared<Parts>();
     parts->model = model;
@@ -105,6 +112,7 @@ System::System(const Model& model) {
     compiler.compile(*parts);
     modes_ = std::make_shared<const std::vector<CompiledMode>>(compiler.compile_modes());
     linear_ = std::make_shared<LinearModes>(modes_->size());
+    uniformised_ = std::make_shared<Uniformised>();
     workspace_ = compiler.workspace();
     operations_ = compiler.operations();
     parts->model.freeze();
@@ -129,6 +137,11 @@ const LinearMode& System::linear(std::size_t mode) const {
     LinearModes::Item& item = linear_->items[mode];
     std::call_once(item.compiled, [&] { item.mode = SystemCompiler(model()).linearise(*this, mode, observed_); });
     return *item.mode;
+}
+
+const UniformisedSystem& System::uniformised() const {
+    std::call_once(uniformised_->compiled, [&] { uniformised_->system.emplace(*this); });
+    return *uniformised_->system;
 }
 
 System System::observing(std::span<const Expression> expressions) const {
@@ -255,7 +268,9 @@ std::vector<System::CompiledMode> SystemCompiler::compile_modes() {
             compiled.transitions.push_back(transition->second);
         }
         const std::vector<Expression> rates = expander_.expand(mode.rates), outputs = watched_functions(compiled);
-        compiled.rates = compile(inputs_, rates);
+        const std::vector<Expression> extended = extended_rates(rates, ends_of_mode(model_, m), states_);
+        compiled.ends_at_root = extended != rates;
+        compiled.rates = compile(inputs_, extended);
         compiled.events = compile(inputs_, outputs);
         compiled.event_gradients = compile_derivatives(inputs_, outputs, states_);
         for (const Expression& function : outputs)

@@ -1,6 +1,7 @@
 #include "graze/flow/variational_system.hpp"
 
 #include "flow/section_function.hpp"
+#include "flow/uniformised_system.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 #include "graze/symbolic/transform.hpp"
@@ -49,7 +50,8 @@ System modes_with_tangents(Model& model, std::span<const std::size_t> rows,
             const std::vector<Expression> along = differentiate_along(moving, column);
             rates.insert(rates.end(), along.begin(), along.end());
         }
-        grown.modes.push_back({.name = mode.name, .rates = std::move(rates)});
+        grown.modes.push_back(
+            {.name = mode.name, .rates = std::move(rates), .ends = ends_of_mode(model, grown.modes.size())});
     }
     return System(grown);
 }

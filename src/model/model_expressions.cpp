@@ -68,6 +68,9 @@ void walk(AnyModel& model, const Visit& visit, const VisitMap& visit_map) {
         visit(definition.value, Role::general, [&] { return "definitions." + definition.name + ".value"; });
     for (auto& mode : model.modes)
         visit_each_state(mode.rates, [&] { return "modes." + mode.name + ".rates"; });
+    for (auto& mode : model.modes)
+        for (auto& end : mode.ends)
+            visit(end, Role::general, [&] { return "modes." + mode.name + ".watch"; });
     for (auto& event : model.events)
         visit(event.function, Role::general, [&] { return "events." + event.name + ".function"; });
     for (auto& jump : model.jumps)

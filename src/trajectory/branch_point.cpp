@@ -3,7 +3,9 @@
 #include "graze/trajectory/trajectory.hpp"
 
 #include "base/special_numbers.hpp"
+#include "graze/flow/mode_flow.hpp"
 #include "trajectory/series.hpp"
+#include "trajectory/tangents.hpp"
 
 #include <fmt/format.h>
 
@@ -21,6 +23,9 @@ constexpr double least_share_left = 1e-2;
 /// rates by these shares of the time scale of the motion, at first and at most; the last number is the allowed
 /// difference of the two integration rules, relative to the state or to its change.
 constexpr double first_leave = 1e-12, last_leave = 1e-9, leave_accuracy = 1e-15;
+/// The same by the flow in which the motion is analytic there: the largest share, and the first one divided by it.
+/// The first arc of a trajectory has a time scale of its own, which is that of the contact if this is shallow.
+constexpr double longest_leave = 1e-5, shortest_leave = 1e-7, first_arc_leave = 0.1;
 /// Factor by which the radicand must exceed its initial value, which is zero but for round-off.
 constexpr double clear_of_zero = 100;
 /// Where the motion is as close to a zero of a radicand as the resolution of time allows, it is extrapolated to this
@@ -166,6 +171,37 @@ bool Trajectory::can_leave_branch_by(double time, std::span<double> after) {
     return leaves;
 }
 
+/// Leaves the zero of a radicand that is the function of an event by the flow in which the motion is analytic there.
+/// @return the time after which the function is clear of its round-off; 0 if that takes longer than `longest`
+double Trajectory::leave_root(double longest) {
+    const Function& roots = compiled_mode_->roots;
+    std::vector<double> after(states_), then(roots.outputs()), errors(roots.outputs());
+    if (!leaving_)
+        leaving_ = std::make_unique<ModeFlow>(simulation_.system(), simulation_.options().tolerance, order_);
+    leaving_->set_parameters(parameters_);
+    for (double time = shortest_leave * longest; time <= longest; time *= 8) {
+        after.assign(state_.begin(), state_.end());
+        if (leaving_->run(mode_, after, time) != ModeFlow::Ending::done)
+            return 0;
+        std::copy(after.begin(), after.end(), inputs_.begin());
+        std::fill(uncertain_.begin(), uncertain_.end(), 0.0);
+        for (std::size_t i = 0; i < states_; ++i)
+            uncertain_[i] = epsilon * std::abs(after[i]);
+        roots.evaluate(inputs_, then, work_);
+        roots.error_bounds(inputs_, uncertain_, errors, work_);
+        bool clear = true;
+        for (std::size_t r = 0; r < then.size(); r += 2)
+            clear = clear && (then[r] > clear_of_zero * errors[r] || then[r + 1] == std::floor(then[r + 1]));
+        if (!clear)
+            continue;
+        if (tangents_)
+            tangents_->leave_root(mode_, state_, time);
+        state_.assign(after.begin(), after.end());
+        return time;
+    }
+    return 0;
+}
+
 /// Called at the start of an arc whose series do not exist or allow no step. @return whether the motion has left the
 /// zero
 bool Trajectory::leave_branch() {
@@ -184,6 +220,14 @@ bool Trajectory::leave_branch() {
         scale = scale > 0 ? scale : 1;
     }
     const double remaining = (end_time_ - time_) - time_low_;
+    if (compiled_mode_->ends_at_root)
+        if (const double left =
+                leave_root(std::min((largest_step_ > 0 ? longest_leave : first_arc_leave) * scale, 0.5 * remaining));
+            left > 0) {
+            add_time(left);
+            wrap_cyclic_states(false);
+            return true;
+        }
     double time = -1;
     for (double share = first_leave; time < 0 && share <= last_leave && share * scale < remaining; share *= 8)
         time = can_leave_branch_by(share * scale, after) ? share * scale : -1;
@@ -199,6 +243,8 @@ bool Trajectory::leave_branch() {
     }
     if (time < 0)
         return false;
+    if (tangents_)
+        tangents_->leave_root(mode_, state_, time);
     state_.assign(after.begin(), after.end());
     add_time(time);
     wrap_cyclic_states(false);

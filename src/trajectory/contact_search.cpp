@@ -95,9 +95,27 @@ std::size_t Trajectory::find_contact(double& step, const StepPreview& preview, s
             first = w;
             step = zero;
         }
+    if (first == no_event && mode.ends_at_root)
+        first = fallen_to_roundoff(step);
     std::stable_sort(touches_.begin(), touches_.end(),
                      [](const Touch& a, const Touch& b) { return a.root.at < b.root.at; });
     return first;
+}
+
+/// Where a radicand is the function of an event, steps shrink with it. It is a difference of states, whose last digits
+/// change no more when it is near zero: then the event happens. @param step receives the time of its zero
+std::size_t Trajectory::fallen_to_roundoff(double& step) {
+    const auto& mode = *compiled_mode_;
+    for (std::size_t w = 0; w < mode.watched.size(); ++w) {
+        const auto c = event_series(w);
+        const double time = -c[0] / c[1];
+        if (watches_[w].side > 0 && c[0] >= 0 && c[1] < 0 && std::isfinite(time) &&
+            c[0] <= roundoff * event_sizes_[mode.watched[w]].terms && time < largest_step_) {
+            step = time;
+            return w;
+        }
+    }
+    return no_event;
 }
 
 /// Adds the events that are simultaneous with a contact at the end of a step but that round-off has put just after it.

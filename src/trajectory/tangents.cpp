@@ -100,6 +100,33 @@ void Tangents::advance(std::size_t mode, std::span<const double> state, double s
     invalidate();
 }
 
+void Tangents::leave_root(std::size_t mode, std::span<const double> state, double duration) {
+    const System& system = simulation_.system();
+    if (!system.mode(mode).ends_at_root)
+        return;
+    const std::size_t columns = states_ + parameters_.size();
+    if (!flow_) {
+        std::vector<ParameterId> all;
+        for (std::size_t j = 0; j < parameters_.size(); ++j)
+            all.emplace_back(j);
+        flow_ = std::make_unique<ModeFlow>(system, simulation_.options().tolerance, simulation_.order(), all);
+        flow_->set_parameters(parameters_);
+    }
+    here_.assign(state.begin(), state.end());
+    std::vector<double> by_start(states_ * columns);
+    if (flow_->run(mode, here_, duration, by_start) != ModeFlow::Ending::done)
+        return;
+    for (std::size_t i = 0; i < states_; ++i)
+        for (std::size_t d = 0; d < directions_; ++d) {
+            double sum = 0;
+            for (std::size_t j = 0; j < columns; ++j)
+                sum += by_start[i * columns + j] *
+                       (j < states_ ? matrix_[j * directions_ + d] : parameter_seeds_[(j - states_) * directions_ + d]);
+            next_[i * directions_ + d] = sum;
+        }
+    matrix_.swap(next_);
+}
+
 void Tangents::pass_jump(std::span<const double> shift, std::span<const double> field_before,
                          const System::CompiledJump& jump, std::span<const double> jacobian,
                          std::span<const double> field_after) {

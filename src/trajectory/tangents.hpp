@@ -1,5 +1,6 @@
 #pragma once
 
+#include "graze/flow/mode_flow.hpp"
 #include "graze/flow/tangent_steps.hpp"
 #include "graze/trajectory/simulation.hpp"
 #include "graze/trajectory/trajectory.hpp"
@@ -41,6 +42,9 @@ public:
     /// @param row receives the derivatives of a watched event's function at the end, by direction; may be empty
     void advance(std::size_t mode, std::span<const double> state, double s, std::size_t watched = 0,
                  std::span<double> row = {});
+    /// Propagates derivatives over a short time from a state at which the argument of a root or power is zero, and the
+    /// motion has no series. Where that is no event of the mode they stay as they are.
+    void leave_root(std::size_t mode, std::span<const double> state, double duration);
     /// Propagates derivatives through a jump whose time changes by `shift`, one number for each direction: at a
     /// contact, minus the derivatives of the event function over its rate.
     /// @param field_before, field_after rates of the states; @param jacobian values of the jump's entries
@@ -65,6 +69,7 @@ private:
     std::vector<double> here_;         ///< state within an arc that is propagated in parts
     Jet *jet_ = nullptr, *next_jet_ = nullptr; ///< the trajectory's jets, while they are at its state
     std::unique_ptr<ModeJets> jets_;           ///< own jets, used without those of the trajectory
+    std::unique_ptr<ModeFlow> flow_;           ///< made when a root is left
     bool valid_ = true;
 };
 

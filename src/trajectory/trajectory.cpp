@@ -3,6 +3,7 @@
 #include "flow/cyclic.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
+#include "graze/flow/mode_flow.hpp"
 #include "trajectory/probe_tracker.hpp"
 #include "trajectory/series.hpp"
 #include "trajectory/tangents.hpp"

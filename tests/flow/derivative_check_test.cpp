@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <vector>
 
 namespace graze::derivative_check_test {
 
@@ -50,6 +51,28 @@ transitions = [{ mode = "only", event = "root", jump = "turn", next = "only" }]
     // An event that is not defined where the motion is cannot be watched there.
     ASSERT_THAT(findings, Contains(Field(&DerivativeFinding::part, "events.root")));
     EXPECT_THAT(findings.back().text(), HasSubstr("the function is not defined at the state"));
+}
+
+/// A force that begins with a power exists on one side of its event only; the flow of its mode goes on beyond.
+TEST(DerivativeCheck, FindsNothingBesideTheBeginningOfAPower) {
+    const System system(parse_model(R"toml(
+name = "hertz"
+parameters = { k = 50, c = 0.5, n = 2.5 }
+states = { x = 0, v = 0 }
+modes.free = { rates = { x = "v", v = "-x" }, watch = ["touch"] }
+modes.contact = { rates = { x = "v", v = "-x - k*(x - 0.5)^1.5*(1 + c*v) - (x - 0.5)^n" }, watch = ["loss"] }
+events = { touch = "0.5 - x", loss = "x - 0.5" }
+transitions = [
+    { mode = "free", event = "touch", next = "contact" },
+    { mode = "contact", event = "loss", next = "free" },
+]
+initial.mode = "free"
+)toml",
+                                    "hertz.toml"));
+    for (const std::vector<double>& state : {std::vector{0.0, 0.0}, std::vector{0.3, 1.0}, std::vector{0.6, 1.0},
+                                             std::vector{0.6, -1.0}, std::vector{0.45, 1.0}})
+        for (const DerivativeFinding& finding : check_derivatives(system, state, system.model().parameter_values()))
+            ADD_FAILURE() << state[0] << ' ' << state[1] << ' ' << finding.part << ": " << finding.text();
 }
 
 TEST(DerivativeCheck, RefusesWhatDoesNotFit) {

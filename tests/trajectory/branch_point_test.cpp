@@ -90,4 +90,61 @@ TEST(BranchPoint, DerivativesPassHertzContacts) {
     EXPECT_NEAR(trajectory.derivative(0, 0), (position(0.6 + 1e-5) - position(0.6 - 1e-5)) / 2e-5, 1e-8);
 }
 
+TEST(BranchPoint, DerivativesPassForcesThatBeginSteeply) {
+    // For p < 1 the stiffness is infinite where a contact begins and ends.
+    const double k = 20, width = 1, time = 2.2;
+    for (const double p : {0.5, 0.75, 1.25}) {
+        const std::string text = fmt::format("{}", p);
+        Model model = parse_model("parameters = { k = 20, width = 1 }\n"
+                                  "states = { x = 0.5, v = 0.6 }\n"
+                                  "modes.free = { rates = { x = 'v', v = '0' }, watch = ['wall'] }\n"
+                                  "modes.right = { rates = { x = 'v', v = '-k*(x - width)^" +
+                                      text +
+                                      "' }, watch = ['loss'] }\n"
+                                      "events = { wall = 'width - x', loss = 'x - width' }\n"
+                                      "transitions = [{ mode = 'free', event = 'wall', next = 'right' },\n"
+                                      "{ mode = 'right', event = 'loss', next = 'free' }]\n"
+                                      "initial.mode = 'free'\n",
+                                  "wall.toml");
+        const auto whole = contact_time(k, p, 0.6);
+        const Simulation simulation{System(model)};
+        Trajectory trajectory(simulation, simulation.model().parameter_values());
+        trajectory.start(std::vector<double>{0.5 * width, 0.6}, 0, 0, time);
+        trajectory.carry_derivatives(std::vector<std::string>{"x", "v", "k"});
+        run(trajectory);
+        ASSERT_EQ(trajectory.outcome().ending, Ending::end_time) << trajectory.outcome().detail;
+        EXPECT_NEAR(trajectory.state()[1], -0.6, 1e-11) << p;
+        const double left = time - 0.5 * width / 0.6 - whole, accuracy = p < 1 ? 1e-5 : 1e-9;
+        EXPECT_NEAR(trajectory.derivative(0, 0), -1, accuracy) << p;
+        EXPECT_NEAR(trajectory.derivative(0, 1), -left - 0.5 * width / 0.6 + (1 - p) / (1 + p) * whole, accuracy) << p;
+        EXPECT_NEAR(trajectory.derivative(0, 2), -0.6 * whole / (1 + p) / k, accuracy) << p;
+        EXPECT_NEAR(trajectory.derivative(1, 1), -1, accuracy) << p;
+    }
+}
+
+TEST(BranchPoint, ShallowContactsTakeFewSteps) {
+    // A spring of unit frequency with the equilibrium -1 carries the body to the wall at 0.5 at low speed: a distance
+    // that is a difference of states keeps few digits there.
+    const Model model = parse_model("parameters = { k = 50 }\n"
+                                    "states = { x = 0.5, v = 0 }\n"
+                                    "modes.contact = { rates = { x = 'v', v = '-(x + 1) - k*(x - 0.5)^1.5' }, "
+                                    "watch = ['loss'] }\n"
+                                    "modes.free = { rates = { x = 'v', v = '-(x + 1)' } }\n"
+                                    "events = { loss = 'x - 0.5' }\n"
+                                    "transitions = [{ mode = 'contact', event = 'loss', next = 'free' }]\n"
+                                    "initial.mode = 'contact'\n",
+                                    "wall.toml");
+    for (const double v : {1.0, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
+        Experiment experiment(model, {.step_limit = 1000});
+        const Outcome outcome = experiment.run_from({0.5, v}, 0, 3);
+        ASSERT_EQ(outcome.ending, Ending::end_time) << v << outcome.detail;
+        ASSERT_EQ(experiment.recorder.contacts().size(), 1u) << v;
+        EXPECT_LT(experiment.trajectory.steps(), 300u) << v;
+        const Contact& contact = experiment.recorder.contacts()[0].contact;
+        EXPECT_NEAR(contact.rate_before, -v, 1e-9 * v + 1e-14 / v) << v; // energy is conserved
+        // At low speed the force of the wall is small of higher order, and the time is 2 v/1.5.
+        EXPECT_NEAR(contact.time, 2 * v / 1.5, v < 1e-3 ? 1e-2 * v : v) << v;
+    }
+}
+
 } // namespace branch_point_test

@@ -9,11 +9,14 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace graze {
+
+class UniformisedFlow;
 
 /// The smooth flow of one mode over a given time, which may be negative; events do not end it. Multiple shooting uses
 /// it. Optionally with derivatives with respect to initial states and chosen parameters.
@@ -25,6 +28,10 @@ public:
     /// @throws InputError for a tolerance, order, parameter or state out of range
     ModeFlow(const System& system, double tolerance, int order = 0, std::vector<ParameterId> free = {},
              std::optional<std::vector<std::size_t>> starts = std::nullopt);
+
+    ~ModeFlow();
+    ModeFlow(ModeFlow&&) noexcept;
+    ModeFlow& operator=(ModeFlow&&) noexcept;
 
     const System& system() const { return system_; }
     const std::vector<ParameterId>& free() const { return free_; }
@@ -39,7 +46,11 @@ public:
     /// after the start of the arc.
     using StepVisitor = std::function<void(const Jet& jet, double time, double length)>;
 
-    /// Computes the state after a time. @param state initial state, replaced by the final one
+    // A mode that ends where the argument of a root or of a power with a fractional exponent vanishes, such as a Hertz
+    // contact, may begin and end there: see docs/method.md. Where the argument is negative its powers are 0.
+
+    /// Computes the state after a time. @param visit is not called within 1e-10 of the duration of such a zero.
+    /// @param state initial state, replaced by the final one
     /// @throws InputError, here and below, for a mode or numbers that do not match the system
     Ending run(std::size_t mode, std::span<double> state, double duration, const StepVisitor& visit = {});
     /// @param watched receives the series of the mode's events along the arc
@@ -50,9 +61,27 @@ public:
     Ending run(std::size_t mode, std::span<double> state, double duration, std::span<double> derivatives,
                WatchedSeries* watched = nullptr);
 
+    /// Decides, from the series at the start of a step, whether the run ends within it, and then shortens the step.
+    using StepEnd = std::function<bool(const Jet& jet, double& length)>;
+    /// The same as `run`, until `end` decides or for the longest duration. @param derivatives may be empty
+    Ending run_until(std::size_t mode, std::span<double> state, double longest, const StepEnd& end,
+                     std::span<double> derivatives);
+
     std::size_t steps() const { return steps_; } ///< since construction
 
 private:
+    struct Watchers {
+        const StepVisitor* visit = nullptr;
+        WatchedSeries* watched = nullptr;
+        const StepEnd* end = nullptr;
+        bool needs_events() const { return visit != nullptr || watched != nullptr || end != nullptr; }
+    };
+    Ending follow(std::size_t mode, std::span<double> state, double duration, const Watchers& watchers);
+    Ending follow(std::size_t mode, std::span<double> state, double duration, std::span<double> derivatives,
+                  const Watchers& watchers);
+    UniformisedFlow* uniformised(std::size_t mode);
+    Ending run_uniformised(std::size_t mode, std::span<double> state, double duration, std::span<double> derivatives,
+                           const StepVisitor& visit);
     double step_of(std::size_t mode, const Jet& jet, double remaining, bool watched);
     bool agrees(std::size_t mode, double length);
     void require_fitting(std::size_t mode, std::span<const double> state) const;
@@ -72,6 +101,9 @@ private:
     std::vector<double> matrix_, next_; ///< states x directions, row by row
     double previous_ = 0;
     std::size_t steps_ = 0;
+    std::unique_ptr<UniformisedFlow> uniformised_; ///< made when first needed
+    double tolerance_;
+    int order_;
 };
 
 } // namespace graze

@@ -14,6 +14,8 @@
 
 namespace graze {
 
+class UniformisedSystem;
+
 /// The first variational equations of a mode, compiled with its tape: derivatives of rates and watched events with
 /// respect to states and parameters.
 struct LinearMode {
@@ -49,8 +51,10 @@ public:
         Function values;
     };
     struct CompiledMode {
-        Tape tape;                ///< outputs: the watched events in their order, then the observed expressions
-        Function rates;           ///< the vector field alone
+        Tape tape; ///< outputs: the watched events in their order, then the observed expressions
+        /// The vector field alone. Powers whose argument is the function of an event of the mode are 0 beyond the
+        /// event.
+        Function rates;
         Function events;          ///< the watched event functions alone
         Function evidence;        ///< rates, watched event functions, observed expressions: values for StepCheck
         Function event_gradients; ///< derivatives of the watched event functions with respect to the states, row by row
@@ -58,6 +62,7 @@ public:
         std::vector<std::size_t> watched;
         std::vector<std::size_t> transitions; ///< transition of each watched event
         bool polynomial = false;              ///< all series are finite: steps of any length are exact
+        bool ends_at_root = false;            ///< the argument of a root or power is the function of an event
         bool has_roots = false;               ///< the rates contain sqrt or non-integer powers, which branch at zero
         Function roots;                       ///< for each of these: its radicand (base), and the exponent
     };
@@ -102,6 +107,9 @@ public:
     const CompiledMode& mode(std::size_t index) const { return item_at(*modes_, index, "mode"); }
     /// Returns the first variational equations of a mode. They are compiled at the first call; thread-safe.
     const LinearMode& linear(std::size_t mode) const;
+    /// Returns the modes in variables in which motions are analytic where the argument of a root or power vanishes.
+    /// They are compiled at the first call; thread-safe.
+    const UniformisedSystem& uniformised() const;
     const CompiledJump& jump(std::size_t index) const { return item_at(parts_->jumps, index, "jump"); }
     const CompiledTransition& transition(std::size_t index) const {
         return item_at(parts_->transitions, index, "transition");
@@ -151,9 +159,11 @@ private:
     };
     std::shared_ptr<const Parts> parts_;
     struct LinearModes;
+    struct Uniformised;
     std::shared_ptr<const std::vector<CompiledMode>> modes_;
-    std::shared_ptr<LinearModes> linear_; ///< variational equations of these modes
-    std::vector<Expression> observed_;    ///< observed expressions, in a frozen graph
+    std::shared_ptr<LinearModes> linear_;      ///< variational equations of these modes
+    std::shared_ptr<Uniformised> uniformised_; ///< of the model, whatever is observed
+    std::vector<Expression> observed_;         ///< observed expressions, in a frozen graph
     std::size_t workspace_ = 0, operations_ = 0;
 };
 

@@ -41,6 +41,7 @@ struct Mode {
     std::string name{}, text{};
     std::vector<Expression> rates{};         ///< time derivative of each state
     std::vector<std::size_t> watched{};      ///< events; simultaneous ones are handled in this order
+    std::vector<Expression> ends{};          ///< functions that are zero where it ends, besides those of `watched`
     bool derived = false;                    ///< here and below: made by `Model::complete` from a declaration
     std::vector<SlidingSurface> slides_on{}; ///< of a derived mode: the surfaces along which it moves
 };

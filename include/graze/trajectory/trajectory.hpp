@@ -20,6 +20,7 @@
 
 namespace graze {
 
+class ModeFlow;
 class ProbeTracker;
 class Tangents;
 
@@ -152,6 +153,7 @@ private:
     void finish_at_branch(std::size_t state);
     bool leave_branch();
     bool can_leave_branch_by(double time, std::span<double> after);
+    double leave_root(double longest);
     // Reports to the observer (report.cpp)
     bool make_step(double& length);
     void report_passage(std::size_t probe, double at, int direction, bool at_contact);
@@ -159,6 +161,7 @@ private:
     void report_minima(double step);
     // The first contact in the step (contact_search.cpp)
     std::size_t find_contact(double& step, const StepPreview& preview, std::size_t lane);
+    std::size_t fallen_to_roundoff(double& step);
     void find_simultaneous(std::size_t& first, double step, double uncertain);
     std::size_t passed_with_period(double step, const StepPreview& preview, std::size_t lane);
     bool find_fall(std::size_t watched, double length, Root& root);
@@ -221,6 +224,7 @@ private:
     RootFinder roots_;
     std::unique_ptr<ProbeTracker> probes_;
     std::unique_ptr<Tangents> tangents_;
+    std::unique_ptr<ModeFlow> leaving_; ///< made when the zero of a radicand is left
     std::size_t states_ = 0;
     int order_ = 0;
 
