@@ -92,7 +92,7 @@ Eigen::VectorXd values_at(const Model& model, const Unfolding& unfolding, const 
 std::vector<Unfolding> independent_unfoldings(Model& model, const Orbit& orbit, const std::string& first) {
     constexpr double dependent = 1e-6;
     std::vector<ConservedQuantity> order = model.conserved;
-    std::ranges::stable_partition(order, [&](const ConservedQuantity& one) { return one.name == first; });
+    std::stable_partition(order.begin(), order.end(), [&](const ConservedQuantity& one) { return one.name == first; });
     std::vector<Unfolding> result;
     std::vector<Eigen::VectorXd> directions;
     for (const ConservedQuantity& one : order) {

@@ -281,10 +281,10 @@ OrbitSolution solve_orbit(const System& system, const Orbit& candidate, const Or
     const Eigen::VectorXd scales = shooting.scales();
     OrbitSolution solution;
     // Where something is conserved the orbit is one of a family, unless a state that contacts only reverse is held.
-    const bool is_one_of_many = conserves_something(model, candidate.parameters) &&
-                                shooting.evaluate(unknowns, at) && moving_neutral_states(shooting, at) == 0;
-    solution.outcome = solve_equations(shooting, unknowns, options, at, solution.iterations, solution.detail,
-                                       is_one_of_many ? 1 : 0);
+    const bool is_one_of_many = conserves_something(model, candidate.parameters) && shooting.evaluate(unknowns, at) &&
+                                moving_neutral_states(shooting, at) == 0;
+    solution.outcome =
+        solve_equations(shooting, unknowns, options, at, solution.iterations, solution.detail, is_one_of_many ? 1 : 0);
     solution.orbit = shooting.orbit_of(unknowns);
     solution.residual = at.residual;
     if (solution.outcome == OrbitOutcome::converged && !(solution.orbit.period() > no_time * candidate.period())) {
