@@ -96,12 +96,16 @@ class Branch(Run):
 
     @property
     def _followed(self) -> List[str]:
-        """Names of the parameters that are followed."""
-        return [name for name, _ in self._record["coordinates"]]
+        """Names of what varies: of a family its coordinate, then the parameters, those that are followed first."""
+        import json
+
+        names = [name for name, _ in self._record["coordinates"]]
+        family = json.loads(self._record["settings"]).get("family")
+        return names if family is None or self._record["kind"] == "curve" else [family or "period", *names]
 
     @property
     def parameter(self) -> str:
-        """The name of the parameter that is followed."""
+        """The name of the parameter that is followed, or of the conserved quantity along which a family is."""
         return self._followed[0]
 
     @property

@@ -53,8 +53,8 @@ class Model(Fixed):
     definitions: `Definition`s, or a dict from names to expressions.
     rates, watch: of a model with one mode: see `Mode`. Several modes: modes, a dict from names to `Mode`.
     events: a dict from names to functions or `Event`s. jumps: a dict from names to dicts of changed states or `Jump`s.
-    transitions: a list of `Transition`s. sections, symmetries, quantities: dicts from names to `Section`, `Symmetry`,
-        `Quantity`, or to a function or expression.
+    transitions: a list of `Transition`s. sections, symmetries, quantities, conserved: dicts from names to `Section`,
+        `Symmetry`, `Quantity`, `Conserved`, or to a function or expression.
     slides, friction: dicts from names to `Slide`s and `Friction`s, of which sliding modes and modes for stick and slip
         are made.
     drawing: what a page shows of a motion, a dict: {"x": (-2, 2), "y": (-1, 1), "shapes": [{"kind": "box", "at": (x, 0),
@@ -69,13 +69,13 @@ class Model(Fixed):
                  time_unit: Any = None, states: Any = None, parameters: Any = None, definitions: Any = None,
                  rates: Any = None, watch: Any = None, modes: Any = None, events: Any = None, jumps: Any = None,
                  transitions: Any = None, slides: Any = None, friction: Any = None, sections: Any = None,
-                 symmetries: Any = None, quantities: Any = None, drawing: Any = None, initial_mode: Any = None,
-                 **values: Any) -> None:
+                 symmetries: Any = None, quantities: Any = None, conserved: Any = None, drawing: Any = None,
+                 initial_mode: Any = None, **values: Any) -> None:
         parts = {"source": source, "time_unit": time_unit, "states": states, "parameters": parameters,
                  "definitions": definitions, "rates": rates, "watch": watch, "modes": modes, "events": events,
                  "jumps": jumps, "transitions": transitions, "slides": slides, "friction": friction,
-                 "sections": sections, "symmetries": symmetries, "quantities": quantities, "drawing": drawing,
-                 "initial_mode": initial_mode}
+                 "sections": sections, "symmetries": symmetries, "quantities": quantities, "conserved": conserved,
+                 "drawing": drawing, "initial_mode": initial_mode}
         if rates is not None or modes is not None:
             if file is not None:
                 raise ModelError("a model is read from a file or written by its equations, not both",
@@ -260,6 +260,11 @@ class Model(Fixed):
     def quantities(self) -> Tuple[str, ...]:
         """Names of the quantities."""
         return tuple(name for name, *_ in self._core.quantities)
+
+    @property
+    def conserved(self) -> Tuple[str, ...]:
+        """Names of the conserved quantities, along which families of orbits can be followed."""
+        return tuple(name for name, *_ in self._core.conserved)
 
     def value(self, expression: Any) -> float:
         """The value of a number or of an expression in parameters, as a text too, at the present parameters.

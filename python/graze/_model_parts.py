@@ -247,6 +247,16 @@ class Symmetry(Part):
         self.map, self.modes, self.text = map, modes, text
 
 
+class Conserved(Part):
+    """An expression that no motion changes, such as an energy; with `modes`, a dict from modes to expressions, where
+    that differs between modes."""
+
+    _what = "a conserved quantity"
+
+    def __init__(self, value: Any = None, *, modes: Any = None, unit: str = "", text: str = "") -> None:
+        self.value, self.modes, self.unit, self.text = value, modes, unit, text
+
+
 class Quantity(Part):
     """A further expression for tables and figures, with its unit and meaning."""
 

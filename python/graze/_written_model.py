@@ -14,8 +14,8 @@ from ._keywords import toml_text
 from ._model_arguments import a_dict, a_list, key_of, mistake, part_of
 from ._model_drawing import write_drawing
 from ._model_lines import ModelLines
-from ._model_parts import (Definition, Event, Friction, Jump, Mode, Parameter, Quantity, Section, Slide, State,
-                           Symmetry, Transition)
+from ._model_parts import (Conserved, Definition, Event, Friction, Jump, Mode, Parameter, Quantity, Section, Slide,
+                           State, Symmetry, Transition)
 
 FILE = "model written in Python"
 ONLY_MODE = "motion"
@@ -26,7 +26,7 @@ class WrittenModel:
 
     def __init__(self, name: Any, *, text: Any, source: Any, time_unit: Any, states: Any, parameters: Any,
                  definitions: Any, rates: Any, watch: Any, modes: Any, events: Any, jumps: Any, transitions: Any,
-                 slides: Any, friction: Any, sections: Any, symmetries: Any, quantities: Any, drawing: Any,
+                 slides: Any, friction: Any, sections: Any, symmetries: Any, quantities: Any, conserved: Any, drawing: Any,
                  initial_mode: Any) -> None:
         self._out = ModelLines()
         self._modes = self._read_modes(rates, watch, modes)
@@ -51,6 +51,7 @@ class WrittenModel:
         self._write_sections(sections)
         self._write_symmetries(symmetries)
         self._write_quantities(quantities)
+        self._write_conserved(conserved)
         write_drawing(self._out, drawing)
         self._out.header("initial", label="initial_mode")
         first = next(iter(self._modes), "") if initial_mode is None else initial_mode
@@ -364,6 +365,18 @@ class WrittenModel:
             self._out.expression("value", quantity.value, label)
             self._out.text("unit", quantity.unit, label)
             self._out.text("text", quantity.text, label)
+
+    def _write_conserved(self, conserved: Any) -> None:
+        for name, label, one in self._parts(Conserved, "conserved", conserved, "a dict from names to expressions"):
+            self._out.header("conserved", name, label=label)
+            if one.value is not None:
+                self._out.expression("value", one.value, label)
+            self._out.text("unit", one.unit, label)
+            self._out.text("text", one.text, label)
+            if one.modes is not None:
+                self._out.header("conserved", name, "modes", label=f"{label}.modes")
+                for mode, own in a_dict(one.modes, f"{label}.modes", "a dict from modes to expressions").items():
+                    self._out.expression(mode, own, f"{label}.modes['{mode}']")
 
     # Telling mistakes.
 

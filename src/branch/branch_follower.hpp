@@ -45,6 +45,9 @@ private:
 
 std::unique_ptr<BranchFollower> follower_of_orbits(const System& system, const Orbit& candidate,
                                                    const BranchSettings& settings);
+/// Returns the follower of a family of orbits; null where the settings mean an ordinary branch: see Family::of.
+std::unique_ptr<BranchFollower> follower_of_family(const System& system, const Orbit& candidate,
+                                                   const BranchSettings& settings);
 std::unique_ptr<BranchFollower> follower_of_equilibria(const System& system, const Orbit& candidate,
                                                        const BranchSettings& settings);
 

@@ -2,6 +2,7 @@
 
 #include "base/decompositions.hpp"
 #include "base/linear_systems.hpp"
+#include "branch/neutral_direction.hpp"
 #include "orbit/eigen_index.hpp"
 
 #include <Eigen/Core>
@@ -20,20 +21,10 @@ using Eigen::VectorXd;
 
 /// Returns the scaled derivatives as a dense matrix. Rows of events keep the units of the current point.
 MatrixXd BranchPointProblem::derivatives(const OrbitEvaluation& at) const {
-    const OrbitLayout& layout = equations().layout();
-    const auto n = index(layout.states());
-    const std::size_t pieces = layout.pieces();
-    MatrixXd result = MatrixXd::Zero(index(pieces) * (n + 1), index(layout.unknowns()));
-    for (std::size_t k = 0; k < pieces; ++k) {
-        const CyclicSystem::Block& block = at.system.block(k);
-        const Eigen::Index row = index(k) * (n + 1);
-        const std::size_t following = k + 1 < pieces ? k + 1 : 0;
-        result.block(row, index(layout.start_of(k)), n + 1, n) += block.own.leftCols(n);
-        result.block(row, index(layout.duration_of(k)), n + 1, 1) += block.own.rightCols(1);
-        result.block(row, index(layout.start_of(following)), n + 1, n) += block.next;
-        result.block(row, index(layout.parameter(0)), n + 1, block.parameters.cols()) += block.parameters;
-        result.row(row) *= at.pieces[k].condition_unit / evaluation().pieces[k].condition_unit;
-    }
+    MatrixXd result = dense_derivatives(equations(), at);
+    const Eigen::Index n = index(equations().layout().states());
+    for (std::size_t k = 0; k < at.pieces.size(); ++k)
+        result.row(index(k) * (n + 1)) *= at.pieces[k].condition_unit / evaluation().pieces[k].condition_unit;
     return result;
 }
 

@@ -32,10 +32,39 @@ void BranchSettings::validate_orbit(const Model& model) const {
     }
 }
 
+const std::string& FamilyCoordinate::name() const {
+    static const std::string period = "period";
+    return conserved.empty() ? period : conserved;
+}
+
+std::string coordinate_name(const BranchSettings& settings, const Model& model) {
+    if (settings.family && !settings.kept)
+        return settings.family->name();
+    const std::vector<std::string> names = model.independent_parameters();
+    return settings.parameter.place() < names.size() ? names[settings.parameter.place()] : "";
+}
+
+namespace {
+
+void require_family(const BranchSettings& settings, const Model& model) {
+    if (!settings.family || settings.unfolded > 0)
+        return;
+    if (!settings.family->conserved.empty())
+        monitor_of_conserved(model, settings.family->conserved);
+    const auto& [least, greatest] = std::pair(settings.family_least, settings.family_greatest);
+    if (least && greatest && !(*least < *greatest))
+        throw InputError(fmt::format("the bounds of '{}' leave no room", settings.family->name()),
+                         "give the smaller one first");
+}
+
+} // namespace
+
 void BranchSettings::validate(const Model& model) const {
     continuation.validate();
     validate_orbit(model);
-    if (parameter.place() >= model.independent_parameters().size())
+    require_family(*this, model);
+    const bool along_family = family && unfolded == 0 && !kept;
+    if (!along_family && parameter.place() >= model.independent_parameters().size())
         throw InputError("the branch's parameter is not one of the model's", "choose an independent parameter");
     if (direction != 1 && direction != -1)
         throw InputError(fmt::format("the direction {} is neither 1 nor -1", direction), "give 1 for up, -1 for down");
@@ -53,17 +82,22 @@ void BranchSettings::validate(const Model& model) const {
         throw InputError(fmt::format("the condition of a point of type {} cannot be held besides that of another",
                                      short_name(*kept_too)),
                          "hold a vanishing sensitivity (VS) besides a touch within an arc (GR)");
-    if (kept && held + (kept_too ? 2 : 1) != free.size())
+    // Along families parameters are added that take the place of `free` ones.
+    const std::size_t conditions = held + (kept ? 1U : 0U) + (kept_too ? 1U : 0U);
+    const std::size_t added = unfolded > 0 ? 0 : std::max(model.conserved.size(), family && kept ? std::size_t{1} : 0);
+    const bool fits =
+        unfolded > 0 ? conditions <= free.size() : conditions >= free.size() && conditions <= free.size() + added;
+    if (!fits && kept)
         throw InputError(fmt::format("{} monitors are fixed, a point of type {} is kept, and {} further parameters are "
                                      "free",
                                      held, short_name(kept_too.value_or(kept->type)), free.size()),
                          fmt::format("free {} for the point, and one for each monitor that is fixed",
                                      kept_too ? "two parameters" : "one parameter"));
-    if (!kept && held != free.size())
+    if (!fits)
         throw InputError(fmt::format("{} monitors are fixed and {} further parameters are free", held, free.size()),
                          "free one parameter for each monitor that is fixed");
     for (const ParameterId one : free)
-        if (one.place() >= model.independent_parameters().size() || one == parameter ||
+        if (one.place() >= model.independent_parameters().size() || (!along_family && one == parameter) ||
             std::count(free.begin(), free.end(), one) > 1)
             throw InputError("a free parameter is not one of the model's, or there twice", "name other ones");
     if (work == 0)

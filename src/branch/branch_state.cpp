@@ -3,6 +3,7 @@
 #include "base/concatenated.hpp"
 #include "branch/bounds.hpp"
 #include "branch/branch_point_problem.hpp"
+#include "branch/neutral_direction.hpp"
 #include "branch/orbit_quantity.hpp"
 #include "branch/sensitivity_condition.hpp"
 #include "graze/base/input_error.hpp"
@@ -60,6 +61,8 @@ bool BranchState::make_problem(const Orbit& orbit) {
         hold_monitors();
     if (settings_.kept && !hold_kept(orbit))
         return false;
+    hold_neutral_directions();
+    rises_ = {};
     problem_->hold(held_);
     ContinuationOptions options = settings_.continuation;
     // A kept touch differs from a contact by much less than the accuracy of orbits, so Newton's method must be more
@@ -85,6 +88,18 @@ void BranchState::hold_monitors() {
     }
 }
 
+/// Adds phase conditions, made anew for each problem, for free parameters that no other condition determines: those
+/// that unfold a family with several conserved quantities.
+void BranchState::hold_neutral_directions() {
+    if (settings_.unfolded == 0)
+        return;
+    const std::size_t others = fixed_monitors() + kept_conditions();
+    held_.resize(others);
+    const std::size_t count = settings_.free.size() - others;
+    for (std::size_t i = 0; i < count; ++i)
+        held_.push_back(std::make_unique<NeutralDirection>(problem_->equations(), i, count));
+}
+
 /// Adds the condition of the kept point, made anew for each problem because it may depend on the pieces of segments.
 /// @return false where it has none
 bool BranchState::hold_kept(const Orbit& orbit) {
@@ -95,7 +110,7 @@ bool BranchState::hold_kept(const Orbit& orbit) {
     std::unique_ptr<OrbitCondition> condition;
     if (rule_of(kept.type).condition && problem_->evaluate(problem_->unknowns_of(orbit)))
         condition = rule_of(kept.type).condition(problem_->equations(), problem_->evaluation(), kept);
-    held_.resize(held_monitors());
+    held_.resize(fixed_monitors());
     if (!condition)
         return false;
     held_.push_back(std::move(condition));
@@ -105,8 +120,12 @@ bool BranchState::hold_kept(const Orbit& orbit) {
     return held_.back() != nullptr;
 }
 
-std::size_t BranchState::held_monitors() const {
-    return settings_.free.size() - (settings_.kept ? 1U : 0U) - (settings_.kept_too ? 1U : 0U);
+std::size_t BranchState::fixed_monitors() const {
+    return static_cast<std::size_t>(std::ranges::count(settings_.monitors, true, &Monitor::fixed));
+}
+
+std::size_t BranchState::kept_conditions() const {
+    return (settings_.kept && !keeps_branch_point() ? 1U : 0U) + (settings_.kept_too ? 1U : 0U);
 }
 
 /// Updates the time of the kept touch: that of the minimum of its event function that is nearest to zero.
@@ -188,6 +207,7 @@ std::optional<DescribedPoint> BranchState::describe(const ContinuationPoint& at)
     result.solution.iterations = at.iterations;
     result.solution.orbit = problem_->orbit_of(at.u);
     describe_orbit(equations, evaluation, result.solution, held_limit_of(settings_));
+    mark_neutral(result.solution, settings_.unfolded);
     update_kept_time(result.solution);
     result.parameter = at.u[problem_->parameter_place()];
     result.tangent = problem_->direction_of(at.tangent);
@@ -198,9 +218,10 @@ std::optional<DescribedPoint> BranchState::describe(const ContinuationPoint& at)
     result.stable = is_stable(result.solution);
     std::vector<Degeneracy> degeneracies;
     if (settings_.kept && !keeps_branch_point())
-        degeneracies = held_.back()->degeneracies(equations, evaluation);
-    std::vector<BranchTest> tests = branch_tests(
-        {equations, evaluation, result.solution, at.tangent, at.determinant, result.monitors, settings_, degeneracies});
+        degeneracies = held_[fixed_monitors() + kept_conditions() - 1]->degeneracies(equations, evaluation);
+    const auto rise = rise_of_family(true);
+    std::vector<BranchTest> tests = branch_tests({equations, evaluation, result.solution, at.tangent, at.determinant,
+                                                  result.monitors, settings_, degeneracies, rise ? &*rise : nullptr});
     return DescribedPoint{std::move(result), std::move(tests)};
 }
 
@@ -232,6 +253,35 @@ bool BranchState::is_in_family(const Orbit& orbit) {
     Shooting shooting(simulation_, orbit, {});
     OrbitEvaluation at = shooting.evaluation();
     return shooting.evaluate(shooting.unknowns_of(orbit), at) && graze::is_in_family(shooting, at);
+}
+
+std::optional<Eigen::RowVectorXd> BranchState::rise_of_family(bool conserved) {
+    if (!is_family())
+        return std::nullopt;
+    const auto is_wanted = [&](const Monitor& one) {
+        return conserved ? one.kind == Monitor::Kind::conserved : &one == &settings_.monitors.back();
+    };
+    const auto monitor = std::ranges::find_if(settings_.monitors, is_wanted);
+    if (monitor == settings_.monitors.end())
+        return std::nullopt;
+    std::optional<OrbitQuantity>& quantity = rises_[conserved ? 1 : 0];
+    if (!quantity)
+        quantity.emplace(OrbitQuantity::of_monitor(
+            problem_->equations(), *monitor,
+            monitors_->segment(static_cast<std::size_t>(monitor - settings_.monitors.begin())), 0));
+    if (!quantity->evaluate(problem_->equations(), problem_->evaluation()))
+        return std::nullopt;
+    return quantity->gradient();
+}
+
+bool BranchState::start_in_family(std::span<const double> u) {
+    if (!is_family() || !problem_->evaluate(u))
+        return false;
+    const auto rise = rise_of_family(false);
+    if (!rise)
+        return false;
+    const Eigen::RowVectorXd row = settings_.direction * *rise;
+    return continuation_->start_at(u, {row.data(), static_cast<std::size_t>(row.size())});
 }
 
 bool BranchState::pieces_need_renewal() {
@@ -295,7 +345,7 @@ bool BranchState::restart(const Orbit& orbit, const OrbitDirection& direction, d
     const std::optional<SpecialPoint> kept = settings_.kept;
     std::shared_ptr<OrbitProblem> old = std::move(problem_);
     std::unique_ptr<Continuation> old_continuation = std::move(continuation_);
-    const auto first = held_.begin() + static_cast<std::ptrdiff_t>(held_monitors());
+    const auto first = held_.begin() + static_cast<std::ptrdiff_t>(fixed_monitors());
     std::vector<std::unique_ptr<OrbitCondition>> old_kept(std::make_move_iterator(first),
                                                           std::make_move_iterator(held_.end()));
     held_.erase(first, held_.end());
@@ -306,8 +356,8 @@ bool BranchState::restart(const Orbit& orbit, const OrbitDirection& direction, d
         problem_ = std::move(old);
         continuation_ = std::move(old_continuation);
         settings_.kept = kept;
-        if (settings_.kept) {
-            held_.resize(held_monitors());
+        if (settings_.kept || !old_kept.empty()) {
+            held_.resize(fixed_monitors());
             std::move(old_kept.begin(), old_kept.end(), std::back_inserter(held_));
             problem_->hold(held_);
         }

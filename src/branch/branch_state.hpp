@@ -1,14 +1,19 @@
 #pragma once
 
 #include "branch/orbit_problem.hpp"
+#include "branch/orbit_quantity.hpp"
 #include "branch/point_kind.hpp"
 #include "graze/branch/orbit_branch.hpp"
 #include "graze/branch/switching.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/cut.hpp"
 
+#include <Eigen/Core>
+
+#include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace graze {
@@ -61,6 +66,12 @@ public:
     /// True when derivatives have grown too much within a piece, or the last piece of a segment, the only one of
     /// variable duration, has become too short.
     bool pieces_need_renewal();
+    /// Starts along a family, in the direction in which its coordinate changes. @return false where the branch is no
+    /// family, or the coordinate has an extremum
+    bool start_in_family(std::span<const double> u);
+    /// Returns the row whose product with a direction is the change of the family's coordinate or, if `conserved`, of
+    /// what is conserved; empty if the branch is no family, or nothing is declared.
+    std::optional<Eigen::RowVectorXd> rise_of_family(bool conserved);
     /// True when an orbit belongs to a family at the same parameters.
     bool is_in_family(const Orbit& orbit);
     /// Continues from a point with newly split segments and newly laid cuts.
@@ -83,10 +94,13 @@ public:
     bool keep_image_of_touch(const Orbit& orbit);
 
 private:
+    bool is_family() const { return settings_.family && settings_.unfolded > 0 && !settings_.kept; }
     void hold_monitors();
     bool keeps_branch_point() const { return settings_.kept && settings_.kept->type == PointType::branch_point; }
     bool hold_kept(const Orbit& orbit);
-    std::size_t held_monitors() const;
+    void hold_neutral_directions();
+    std::size_t fixed_monitors() const;
+    std::size_t kept_conditions() const;
     void update_kept_time(const OrbitSolution& solution);
     bool find_touch(const Orbit& orbit);
     bool needs_sections(const Orbit& orbit, const Orbit& without) const;
@@ -102,6 +116,8 @@ private:
     std::vector<std::unique_ptr<OrbitCondition>> held_;
     std::shared_ptr<OrbitProblem> problem_;
     std::unique_ptr<Continuation> continuation_;
+    /// Along families: changes of the coordinate, and of what is conserved; made when first needed.
+    std::array<std::optional<OrbitQuantity>, 2> rises_;
     double arclength_ = 0, growth_ = 1;
 };
 

@@ -18,6 +18,7 @@ public:
     const Function& function(std::size_t monitor) const { return functions_[monitor]; }
 
 private:
+    System system_;
     std::vector<Monitor> monitors_;
     std::vector<Function> functions_; ///< empty for durations and multipliers
 };

@@ -6,6 +6,7 @@
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 #include "graze/flow/roots.hpp"
+#include "graze/model/conserved.hpp"
 #include "orbit/orbit_flow.hpp"
 #include "orbit/segment_arcs.hpp"
 
@@ -26,7 +27,7 @@ bool is_along_arcs(Monitor::Kind kind) {
 }
 
 bool is_at_point(Monitor::Kind kind) {
-    return kind == Monitor::Kind::value || kind == Monitor::Kind::start;
+    return kind == Monitor::Kind::value || kind == Monitor::Kind::start || kind == Monitor::Kind::conserved;
 }
 
 /// Returns the index of the segment given by a number "2", a name "J1" or the second of a name "J1#2".
@@ -66,8 +67,13 @@ public:
         : monitors_(std::move(monitors)), system_(system),
           simulation_(system, {}, observed(), {.tolerance = tolerance}), flow_(flow_of(simulation_)),
           arcs_of_(Simulation(system, {}, {}, {.tolerance = tolerance})), roots_(simulation_.order()) {
-        for (const Monitor& monitor : monitors_)
-            functions_.push_back(is_at_point(monitor.kind) ? system.function_of({&monitor.expression, 1}) : Function());
+        const std::size_t modes = system.model().modes.size();
+        for (const Monitor& monitor : monitors_) {
+            std::vector<Function>& own = functions_.emplace_back();
+            for (std::size_t mode = 0; is_at_point(monitor.kind) && mode < modes; ++mode)
+                if (mode == 0 || !monitor.in_modes.empty())
+                    own.push_back(system.function_of({&monitor.expression_in(mode), 1}));
+        }
         set_signature(signature);
     }
 
@@ -158,8 +164,8 @@ private:
                 continue;
             arcs = arcs || is_along_arcs(monitors_[m].kind);
             end = end || monitors_[m].kind == Monitor::Kind::value;
-            if (monitors_[m].kind == Monitor::Kind::start)
-                values_[m] = at(m, orbit.starts[s], orbit);
+            if (monitors_[m].kind == Monitor::Kind::start || monitors_[m].kind == Monitor::Kind::conserved)
+                values_[m] = at(m, orbit.signature[s].mode, orbit.starts[s], orbit);
         }
         if (!arcs && !end)
             return;
@@ -179,11 +185,12 @@ private:
             state = along.end;
         for (std::size_t m = 0; m < monitors_.size(); ++m)
             if (monitors_[m].kind == Monitor::Kind::value && wanted(m))
-                values_[m] = at(m, state, orbit);
+                values_[m] = at(m, mode, state, orbit);
     }
 
-    double at(std::size_t m, const std::vector<double>& state, const Orbit& orbit) const {
-        return functions_[m](concatenated(state, orbit.parameters))[0];
+    double at(std::size_t m, std::size_t mode, const std::vector<double>& state, const Orbit& orbit) const {
+        const std::vector<Function>& own = functions_[m];
+        return own[own.size() == 1 ? 0 : mode](concatenated(state, orbit.parameters))[0];
     }
 
     void gather(std::size_t m, const double* series, double length) {
@@ -242,12 +249,37 @@ private:
     SegmentArcsFinder arcs_of_;
     RootFinder roots_;
     std::vector<std::optional<std::size_t>> segments_;
-    std::optional<EquilibriumMonitors> at_rest_; ///< made for the first signature of an equilibrium
-    std::vector<Function> functions_;
+    std::optional<EquilibriumMonitors> at_rest_;   ///< made for the first signature of an equilibrium
+    std::vector<std::vector<Function>> functions_; ///< of each monitor at points: one, or one for each mode
     std::vector<Total> totals_;
     std::vector<double> values_, coefficients_, derivative_;
     std::vector<Root> found_;
 };
+
+Monitor monitor_of_conserved(const Model& model, const std::string& name) {
+    const auto found = find_named(model.conserved, name);
+    if (!found) {
+        std::string known;
+        for (const ConservedQuantity& one : model.conserved)
+            known += (known.empty() ? "" : ", ") + one.name;
+        throw InputError(fmt::format("the model has no conserved quantity '{}'", name),
+                         known.empty() ? "declare it: [conserved] energy = \"...\"" : "it has " + known);
+    }
+    const ConservedQuantity& conserved = model.conserved[*found];
+    Model scratch = model;
+    Monitor monitor;
+    monitor.name = name;
+    monitor.unit = conserved.unit;
+    monitor.kind = Monitor::Kind::conserved;
+    for (const Mode& mode : model.modes) {
+        const Expression* own = conserved_in(conserved, mode.name);
+        monitor.in_modes.push_back(own ? scratch.expand(*own) : scratch.number(0));
+    }
+    monitor.expression = monitor.in_modes.front();
+    if (conserved.modes.empty())
+        monitor.in_modes.clear();
+    return monitor;
+}
 
 void measure_multipliers(const std::vector<Monitor>& monitors, const std::vector<std::complex<double>>& multipliers,
                          std::vector<double>& values) {

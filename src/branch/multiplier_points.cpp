@@ -52,8 +52,12 @@ BranchTest test_of_multiplier_minus_one(const TestedPoint& point, PointType type
 /// Returns the distance of the nearest multiplier from a number.
 double distance_to(const OrbitSolution& solution, double wanted) {
     double nearest = std::numeric_limits<double>::infinity();
+    std::size_t neutral = solution.neutral; // those of a family do not count
     for (const std::complex<double> one : multipliers_followed(solution))
-        nearest = std::min(nearest, std::abs(one - wanted));
+        if (one == 1.0 && neutral > 0)
+            --neutral;
+        else
+            nearest = std::min(nearest, std::abs(one - wanted));
     return nearest;
 }
 
@@ -143,7 +147,13 @@ void describe_asymmetry(const BranchState& state, SpecialPoint& special) {
 void test_fold(const TestedPoint& point, std::vector<BranchTest>& tests) {
     constexpr double least_rise = 1e-8; // share of the parameter in the tangent: smaller values are round-off
     BranchTest test{.type = where_curves_meet(point, PointType::fold)};
-    if (point.settings.free.empty()) {
+    if (point.rise) {
+        const Eigen::Map<const Eigen::VectorXd> tangent = vector_of(point.tangent);
+        test.value = point.rise->dot(tangent);
+        test.noise = least_rise * point.rise->transpose().cwiseProduct(point.at.scales).norm();
+    } else if (point.settings.family && !point.settings.kept) {
+        test.value = not_a_number; // nothing that is conserved is known to have an extremum
+    } else if (point.settings.free.empty()) {
         const std::size_t place = point.equations.layout().parameter(0);
         test.value = point.tangent[place];
         test.noise = least_rise * point.at.scales[index(place)];
@@ -158,7 +168,7 @@ void test_fold(const TestedPoint& point, std::vector<BranchTest>& tests) {
 /// The side with two orbits is reported for branches in one parameter only.
 bool confirm_fold(BranchState& state, SpecialPoint& special, const BranchTest&) {
     const OrbitProblem& problem = state.problem();
-    if (special.located && state.settings().free.empty())
+    if (special.located && state.settings().unfolded == 0 && state.settings().free.empty())
         if (const auto form = fold_form(problem.equations(), problem.evaluation()))
             special.detail = form_in_words(*form, state);
     return special.located && has_multiplier(state, special, 1);
@@ -181,6 +191,8 @@ void test_asymmetry(const TestedPoint& point, std::vector<BranchTest>& tests) {
 
 bool confirm_flip(BranchState& state, SpecialPoint& special, const BranchTest&) {
     SecondVariation variation(state.problem().equations());
+    if (state.settings().unfolded > 0) // both multipliers of the pair are -1
+        return special.located && has_multiplier(state, special, -1);
     if (const auto form = flip_criticality(state.problem().equations(), state.problem().evaluation(), variation))
         special.detail = form_in_words(*form, "c", 1, "two multipliers are -1");
     return special.located && has_multiplier(state, special, -1);
@@ -233,7 +245,9 @@ void test_torus(const TestedPoint& point, std::vector<BranchTest>& tests) {
             others *= std::max(std::abs(factor), smallest);
             smallest = std::min(std::abs(factor), smallest);
         }
-    if (multipliers.size() >= 2 && std::isfinite(product.real()) && !is_kept(point, PointType::torus))
+    // Where something is conserved, multipliers come in reciprocal pairs: the product is zero everywhere.
+    if (multipliers.size() >= 2 && std::isfinite(product.real()) && !is_kept(point, PointType::torus) &&
+        point.settings.unfolded == 0)
         test.value = product.real();
     test.noise = least_growth * others;
     tests.push_back(test);

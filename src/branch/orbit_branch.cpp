@@ -8,6 +8,8 @@
 namespace graze {
 
 OrbitBranch::OrbitBranch(const System& system, const Orbit& candidate, const BranchSettings& settings) {
+    if ((follower_ = follower_of_family(system, candidate, settings)))
+        return;
     if (is_rest(candidate.signature)) {
         follower_ = follower_of_equilibria(system, candidate, settings);
         return;

@@ -42,6 +42,7 @@ public:
         if (state_.is_in_family(candidate_))
             return refuse(family_in_words());
         const bool begun =
+            state_.start_in_family(u) ||
             state_.continuation().start(u, state_.problem().parameter_place(), state_.settings().direction);
         // At changed parameters the orbit may no longer cross its section.
         if (!begun && !is_kept_point_ && state_.begin_without_sections(candidate_))
@@ -273,12 +274,11 @@ private:
     /// Returns the message for a candidate in a family of orbits, for which no branch is defined.
     std::string family_in_words() const {
         const Model& model = state_.model();
-        return fmt::format(
-            "the orbit is one of a family at the same '{}' (a multiplier is 1: something is conserved). "
-            "Hold one of its numbers, such as monitors = {{ reach = {{ maximum = \"{}\", fixed = true }} "
-            "}}, with a parameter in `free` that ends the family, such as a damping of 0 (the model needs "
-            "one); `along` that parameter is the family itself",
-            model.independent_parameters()[state_.settings().parameter.place()], model.states.front().name);
+        return fmt::format("the orbit is one of a family at the same '{}' (a multiplier is 1: something is conserved). "
+                           "Declare what it is, as in [conserved] energy = \"...\" of the model: it is then held. Or "
+                           "follow the family "
+                           "itself: along = \"period\"",
+                           model.independent_parameters()[state_.settings().parameter.place()]);
     }
     std::string touch_in_words(std::size_t segment) const {
         return fmt::format("the orbit only touches the section '{}', at which monitors are taken or a touch is kept: "

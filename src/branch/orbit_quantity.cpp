@@ -56,7 +56,7 @@ OrbitQuantity OrbitQuantity::of_monitor(const OrbitEquations& equations, const M
     if (monitor.kind == Monitor::Kind::multiplier)
         throw InputError(fmt::format("monitor '{}' is a multiplier, which cannot be held", monitor.name),
                          "report values of it, or give bounds at which the branch ends");
-    return {equations, {monitor.kind, monitor.expression, segment, value, {}}};
+    return {equations, {monitor.kind, monitor.expression, segment, value, {}, monitor.in_modes}};
 }
 
 OrbitQuantity OrbitQuantity::of_speed(const OrbitEquations& equations, std::size_t segment, double speed) {
@@ -115,9 +115,12 @@ std::vector<Expression> OrbitQuantity::expressions_of(const OrbitEquations& equa
         return {};
     Model model = equations.model();
     const Expression& given = description.expression;
+    if (!description.in_modes.empty())
+        return model.expand(description.in_modes);
     const Expression own = model.expand(description.kind == Monitor::Kind::norm ? given * given : given);
     std::vector<Expression> result{own};
-    if (!description.segment && equations.symmetry())
+    const bool along_orbit = description.kind != Monitor::Kind::conserved && !description.segment;
+    if (along_orbit && equations.symmetry())
         result.push_back(composed(model, own, model.symmetries[*equations.symmetry()].map));
     return result;
 }
@@ -139,6 +142,7 @@ bool OrbitQuantity::evaluate(const OrbitEquations& equations, const OrbitEvaluat
     flow_.set_parameters(at.parameters);
     const bool defined = kind_ == Monitor::Kind::value                                        ? at_end(equations, at)
                          : kind_ == Monitor::Kind::start                                      ? at_start(equations, at)
+                         : kind_ == Monitor::Kind::conserved                                  ? at_start(equations, at)
                          : kind_ == Monitor::Kind::duration                                   ? duration(equations, at)
                          : kind_ == Monitor::Kind::maximum || kind_ == Monitor::Kind::minimum ? extremum(equations, at)
                                                                                               : mean(equations, at);
@@ -182,8 +186,8 @@ bool OrbitQuantity::at_end(const OrbitEquations& equations, const OrbitEvaluatio
 bool OrbitQuantity::at_start(const OrbitEquations& equations, const OrbitEvaluation& at) {
     const auto n = index(equations.layout().states());
     const std::size_t piece = equations.layout().first_piece(segment_.value_or(0));
-    const Eigen::VectorXd by_all =
-        gradient_at(equations, at, watched_[0], start_of_piece(equations, at, piece), value_);
+    const Watched& watched = watched_[watched_.size() == 1 ? 0 : equations.mode_of(piece)];
+    const Eigen::VectorXd by_all = gradient_at(equations, at, watched, start_of_piece(equations, at, piece), value_);
     gradient_.segment(index(equations.layout().start_of(piece)), n) = by_all.head(n).transpose();
     gradient_.tail(by_all.size() - n) = by_all.tail(by_all.size() - n).transpose();
     return true;

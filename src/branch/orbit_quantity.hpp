@@ -48,7 +48,8 @@ private:
         Expression expression{};
         std::optional<std::size_t> segment; ///< empty: the whole orbit
         double target = 0;
-        std::optional<double> share; ///< for a touch: about the share of the segment at which its minimum lies
+        std::optional<double> share;        ///< for a touch: about the share of the segment at which its minimum lies
+        std::vector<Expression> in_modes{}; ///< of a conserved quantity: one for each mode, or none
     };
     OrbitQuantity(const OrbitEquations& equations, const Description& description);
     OrbitQuantity(const OrbitEquations& equations, const Description& description,

@@ -1,5 +1,6 @@
 #include "branch/other_branch.hpp"
 
+#include "branch/orbit_quantity.hpp"
 #include "branch/point_rules.hpp"
 #include "graze/base/input_error.hpp"
 #include "orbit/newton.hpp"
@@ -31,6 +32,25 @@ Eigen::VectorXd sized_unknowns(const OrbitEquations& equations) {
     return result;
 }
 
+/// Returns the parameter that unfolds a family, if the branch is one.
+std::optional<ParameterId> unfolding_of(const Model& model, const BranchSettings& settings) {
+    if (settings.unfolded == 0)
+        return std::nullopt;
+    return model.independent_parameter(model.independent_parameters().back());
+}
+
+/// Returns the change of a family's coordinate with the unknowns: zero on the direction in which orbits of another kind
+/// leave the family, but not along the family itself.
+Eigen::RowVectorXd rise_along_family(const OrbitProblem& problem, const BranchSettings& settings) {
+    const Monitor& coordinate = settings.monitors.back();
+    const std::optional<std::size_t> first =
+        coordinate.kind == Monitor::Kind::conserved ? std::optional(std::size_t{0}) : std::nullopt;
+    OrbitQuantity quantity = OrbitQuantity::of_monitor(problem.equations(), coordinate, first, 0);
+    if (!quantity.evaluate(problem.equations(), problem.evaluation()))
+        throw InputError("the family has no coordinate there", "try another point");
+    return quantity.gradient();
+}
+
 } // namespace
 
 Orbit twice(const Orbit& orbit) {
@@ -45,7 +65,8 @@ std::vector<BranchStart> along_null_vector(const System& system, Orbit orbit, co
                                            const OrbitDirection& along, const std::string& how, bool second) {
     const Simulation simulation(system, {}, {}, integration(settings.orbit.tolerance));
     join_drifts(simulation, orbit);
-    OrbitProblem problem(simulation, orbit, settings.parameter);
+    const ParameterId parameter = unfolding_of(system.model(), settings).value_or(settings.parameter);
+    OrbitProblem problem(simulation, orbit, parameter);
     const auto fail = [] {
         throw InputError("the direction of the other branch could not be found", "try another point");
     };
@@ -54,6 +75,8 @@ std::vector<BranchStart> along_null_vector(const System& system, Orbit orbit, co
     Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(index(problem.unknowns()));
     if (!along.is_empty())
         row = vector_of(problem.row_of(problem.unknowns_of(along))).transpose();
+    else if (settings.unfolded > 0)
+        row = rise_along_family(problem, settings);
     else
         row[index(problem.parameter_place())] = 1;
     Eigen::VectorXd vector;

@@ -73,6 +73,8 @@ struct TestedPoint {
     std::span<const double> monitors;
     const BranchSettings& settings;
     std::span<const Degeneracy> degeneracies; ///< degeneracies of the points along a curve
+    /// Along a family: gradient of what is conserved, with respect to the unknowns; null: nothing is declared.
+    const Eigen::RowVectorXd* rise = nullptr;
 };
 
 /// True when the branch is a curve of points of this type, so that the test is zero all along it.

@@ -1,6 +1,7 @@
 #include "graze/branch/switching.hpp"
 
 #include "branch/equilibrium_switch.hpp"
+#include "branch/family.hpp"
 #include "branch/point_kind.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
@@ -13,6 +14,12 @@ namespace graze {
 std::vector<BranchStart> branches_at(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
     const Model& model = system.model();
     settings.validate(model);
+    if (const auto family = Family::of(system, point.solution.orbit, settings)) {
+        std::vector<BranchStart> starts = branches_at(family->system(), family->unfolded(point), family->settings());
+        for (BranchStart& start : starts)
+            start.orbit = family->folded(std::move(start.orbit));
+        return starts;
+    }
     const PointRule& rule = rule_of(point.type);
     if (!rule.leave) {
         std::vector<std::string_view> left;

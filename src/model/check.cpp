@@ -1,6 +1,7 @@
 #include "graze/model/check.hpp"
 
 #include "graze/base/printable.hpp"
+#include "graze/model/conserved.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "model/check_symmetry.hpp"
 #include "model/model_drawing.hpp"
@@ -47,6 +48,9 @@ public:
                     "shown");
         for (std::string& warning : symmetry_warnings(model_))
             warnings_.push_back({"", std::move(warning)});
+        for (std::size_t i = 0; i < model_.conserved.size(); ++i)
+            if (std::string why = why_not_conserved(model_, i); !why.empty())
+                warnings_.push_back({"", std::move(why)});
         return std::move(warnings_);
     }
 

@@ -101,6 +101,12 @@ void walk(AnyModel& model, const Visit& visit, const VisitMap& visit_map) {
             visit(condition.function, Role::general, [] { return std::string("initial.mode"); });
     for (auto& quantity : model.quantities)
         visit(quantity.value, Role::general, [&] { return "quantities." + quantity.name + ".value"; });
+    for (auto& conserved : model.conserved) {
+        visit(conserved.value, conserved.value.empty() ? Role::unused : Role::general,
+              [&] { return "conserved." + conserved.name + ".value"; });
+        for (auto& own : conserved.modes)
+            visit(own.value, Role::general, [&] { return "conserved." + conserved.name + ".modes." + own.mode; });
+    }
 }
 
 /// The same for a constant model. Images shared by jumps are visited once.

@@ -3,6 +3,7 @@
 #include "graze/base/input_error.hpp"
 #include "graze/base/printable.hpp"
 #include "graze/base/text_file.hpp"
+#include "graze/model/conserved.hpp"
 #include "model/model_completion.hpp"
 #include "model/model_file_sliding.hpp"
 #include "model/model_validate.hpp"
@@ -62,6 +63,7 @@ public:
         read("sections", &ModelReader::read_sections);
         read("symmetries", &ModelReader::read_symmetries);
         read("quantities", &ModelReader::read_quantities);
+        read("conserved", &ModelReader::read_conserved);
         read("drawing", &ModelReader::read_drawing);
         read("initial", &ModelReader::read_initial);
         if (top.count("initial") == 0 && written_modes() > 1)
@@ -73,6 +75,7 @@ public:
         mistakes_.throw_noted();
         complete_model(model_, places_);
         validate_model(model_, places_);
+        let_phase_free_states_drift(model_);
         return std::move(model_);
     }
 
@@ -356,6 +359,27 @@ private:
         });
     }
 
+    void read_conserved(const TomlEntry& group) {
+        add_items(group, model_.conserved, [&](const TomlEntry& entry, ConservedQuantity& conserved) {
+            const auto read_modes = [&](const TomlEntry& part) {
+                for (const TomlEntry& mode : entries(part)) {
+                    places_.set(mode.path, mode.place);
+                    conserved.modes.push_back(
+                        {model_.modes[key_index(mode, model_.modes, "mode")].name, expression(mode)});
+                }
+            };
+            read_value_or_parts(entry, {{"value", expression_into(conserved.value)},
+                                        {"modes", read_modes},
+                                        {"unit", line_into(conserved.unit)},
+                                        {"text", text_into(conserved.text)}});
+            for (const Mode& mode : model_.modes)
+                if (conserved.value.empty() && !conserved_in(conserved, mode.name))
+                    throw InputError(entry.place,
+                                     fmt::format("{} has no expression in mode '{}'", entry.path, mode.name),
+                                     "give a value for all modes, or one in `modes` for each");
+        });
+    }
+
     /// Returns the number of modes that the file has, without those that are made for it.
     std::size_t written_modes() const {
         return model_.modes.size() - static_cast<std::size_t>(std::ranges::count(model_.modes, true, &Mode::derived));
@@ -375,9 +399,10 @@ private:
 } // namespace
 
 const std::vector<std::string>& model_keys() {
-    static const std::vector<std::string> keys{
-        "name",  "text",        "source", "time_unit", "parameters", "states",     "definitions", "modes",   "events",
-        "jumps", "transitions", "slides", "friction",  "sections",   "symmetries", "quantities",  "drawing", "initial"};
+    static const std::vector<std::string> keys{"name",        "text",        "source",   "time_unit", "parameters",
+                                               "states",      "definitions", "modes",    "events",    "jumps",
+                                               "transitions", "slides",      "friction", "sections",  "symmetries",
+                                               "quantities",  "conserved",   "drawing",  "initial"};
     return keys;
 }
 

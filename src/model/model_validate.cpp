@@ -149,6 +149,23 @@ private:
                 fail(path, fmt::format("the name '{}' of a quantity is used twice", quantity.name),
                      "rename one of them");
         }
+        check_conserved_names();
+    }
+
+    void check_conserved_names() const {
+        std::set<std::string> seen;
+        for (const ConservedQuantity& conserved : model_.conserved) {
+            const std::string path = "conserved." + conserved.name;
+            if (!is_valid_name(conserved.name) || conserved.name == "period")
+                fail(path, fmt::format("'{}' cannot be the name of a conserved quantity", conserved.name),
+                     "names consist of letters, digits and underscores, do not start with a digit and are not "
+                     "reserved, as 'period' is");
+            check_length(conserved.name, "conserved quantity", places_.of(path));
+            if (!seen.insert(conserved.name).second || model_.find_state(conserved.name) ||
+                model_.find_parameter(conserved.name))
+                fail(path, fmt::format("the name '{}' of a conserved quantity is used twice", conserved.name),
+                     "rename one of them");
+        }
     }
 
     void check_count(const std::string& path, std::size_t count, std::size_t expected, const char* of) const {

@@ -57,6 +57,7 @@ public:
         write_sections();
         write_symmetries();
         write_quantities();
+        write_conserved();
         if (drawing && model_.drawing)
             write_drawing(*model_.drawing);
         line("\n[initial]");
@@ -264,6 +265,20 @@ private:
             item(quantity.name, {{"value", value_text(quantity.value)},
                                  {"unit", quoted_if_any(quantity.unit)},
                                  {"text", quoted_if_any(quantity.text)}});
+    }
+
+    void write_conserved() {
+        if (!model_.conserved.empty())
+            line("\n[conserved]");
+        for (const ConservedQuantity& conserved : model_.conserved) {
+            std::vector<std::string> modes;
+            for (const ConservedQuantity::InMode& own : conserved.modes)
+                modes.push_back(fmt::format("{} = {}", own.mode, value_text(own.value)));
+            item(conserved.name, {{"value", conserved.value.empty() ? "" : value_text(conserved.value)},
+                                  {"modes", modes.empty() ? "" : fmt::format("{{ {} }}", fmt::join(modes, ", "))},
+                                  {"unit", quoted_if_any(conserved.unit)},
+                                  {"text", quoted_if_any(conserved.text)}});
+        }
     }
 
     static std::string pair(const std::string& x, const std::string& y) {

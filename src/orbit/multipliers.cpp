@@ -111,13 +111,22 @@ private:
                 units_[i] = unit;
             }
     }
+    /// The drifting state from which an active one is measured, if it is translated with one.
+    const std::optional<std::size_t>& drifts_with(std::size_t active) const {
+        return equations_->model().states[(*active_)[active]].drifts_with;
+    }
     Eigen::MatrixXd restricted(const Eigen::MatrixXd& matrix) const {
         const auto& active = *active_;
         Eigen::MatrixXd result(index(active.size()), index(active.size()));
-        for (std::size_t i = 0; i < active.size(); ++i)
-            for (std::size_t j = 0; j < active.size(); ++j)
-                result(index(i), index(j)) =
-                    matrix(index(active[i]), index(active[j])) * units_[index(j)] / units_[index(i)];
+        for (std::size_t i = 0; i < active.size(); ++i) {
+            const auto& with = drifts_with(i);
+            for (std::size_t j = 0; j < active.size(); ++j) {
+                double value = matrix(index(active[i]), index(active[j]));
+                if (with)
+                    value -= matrix(index(*with), index(active[j]));
+                result(index(i), index(j)) = value * units_[index(j)] / units_[index(i)];
+            }
+        }
         return result;
     }
     Eigen::VectorXd direction(const std::vector<double>& state) {
@@ -126,7 +135,8 @@ private:
         equations_->system().mode(mode_).rates.evaluate(inputs_, field, work_);
         Eigen::VectorXd result(index(active_->size()));
         for (std::size_t i = 0; i < active_->size(); ++i)
-            result[index(i)] = field[(*active_)[i]] / units_[index(i)];
+            result[index(i)] =
+                (field[(*active_)[i]] - (drifts_with(i) ? field[*drifts_with(i)] : 0)) / units_[index(i)];
         return result;
     }
     /// True when the condition number of the restricted matrix is too large.

@@ -13,12 +13,16 @@ void require_accuracy(double accuracy);
 void require_tolerance_in_range(double tolerance);
 /// Solves equations without free parameters by damped Newton's method.
 /// @param at set to the evaluation at the last iterate; its `unknowns` are empty if the equations are undefined there
+/// @param undetermined number of directions that the equations leave undetermined, if that is known beforehand
 OrbitOutcome solve_equations(OrbitEquations& equations, Eigen::VectorXd& unknowns, const OrbitOptions& options,
-                             OrbitEvaluation& at, std::size_t& iterations, std::string& detail);
+                             OrbitEvaluation& at, std::size_t& iterations, std::string& detail,
+                             std::size_t undetermined = 0);
 /// Sets residual, multipliers and certificate of a solution from an evaluation of its equations.
 /// @param held constraint at the limit of admissibility, if any
 void describe_orbit(OrbitEquations& equations, const OrbitEvaluation& at, OrbitSolution& solution,
                     const std::optional<HeldLimit>& held = std::nullopt);
+/// Marks that many multipliers as those of a family: the nearest to 1 are set to 1.
+void mark_neutral(OrbitSolution& solution, std::size_t count);
 /// True when an orbit belongs to a family of orbits at the same parameters, as in models that conserve a quantity: its
 /// equations are singular, and displaced along the null vector Newton's method converges to another orbit there, whose
 /// equations are singular too. At folds and branch points such orbits exist only at other parameters, or not at all.

@@ -543,10 +543,25 @@ void OrbitEquations::assemble_closure(std::size_t k, const Eigen::VectorXd& unkn
     block.next.bottomRows(n).setIdentity();
 }
 
+/// Subtracts from the continuity row of a state in the last piece that of the drifting state with which it is
+/// translated: the distance between the two closes.
+void OrbitEquations::close_with(std::size_t state, std::size_t drifting, OrbitEvaluation& at) const {
+    CyclicSystem::Block& block = at.system.block(layout_.pieces() - 1);
+    const Eigen::Index row = index(state) + 1, other = index(drifting) + 1;
+    const double ratio = scales_[index(drifting)] / scales_[index(state)];
+    block.own.row(row) -= ratio * block.own.row(other);
+    block.parameters.row(row) -= ratio * block.parameters.row(other);
+    block.next.row(row) -= ratio * block.next.row(other);
+    block.right[row] -= ratio * block.right[other];
+}
+
 /// Replaces the continuity rows of neutral and drifting states of the last piece: they are held at their first value.
 void OrbitEquations::pin(const Eigen::VectorXd& unknowns, const std::vector<bool>& neutral, OrbitEvaluation& at) const {
     CyclicSystem::Block& block = at.system.block(layout_.pieces() - 1);
     at.active.clear();
+    for (std::size_t i = 0; i < layout_.states(); ++i)
+        if (const auto& with = model().states[i].drifts_with)
+            close_with(i, *with, at);
     for (std::size_t i = 0; i < layout_.states(); ++i) {
         if (!neutral[i] && !model().states[i].drifting) {
             at.active.push_back(i);
@@ -678,7 +693,9 @@ bool OrbitEquations::set_right(std::size_t k, const Eigen::VectorXd& unknowns, c
         const bool held = following == 0 && (active == at.active.size() || at.active[active] != i);
         active += following == 0 && !held ? 1 : 0;
         const double start = unknowns[index(following + i)], period = ends_.periods()[i];
-        const double difference = held ? start - reference_[i] : without_turns(start - state[i], period);
+        double difference = held ? start - reference_[i] : without_turns(start - state[i], period);
+        if (const auto& with = model().states[i].drifts_with; with && following == 0 && !held)
+            difference -= unknowns[index(following + *with)] - state[*with];
         right[index(place + 1 + i)] = -difference / at.scales[index(i)];
     }
     return true;

@@ -164,6 +164,7 @@ private:
     void assemble_closure(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at,
                           std::vector<bool>& neutral) const;
     void drop_accidentally_neutral(const OrbitEvaluation& at, std::vector<bool>& neutral);
+    void close_with(std::size_t state, std::size_t drifting, OrbitEvaluation& at) const;
     void pin(const Eigen::VectorXd& unknowns, const std::vector<bool>& neutral, OrbitEvaluation& at) const;
     bool set_right(std::size_t k, const Eigen::VectorXd& unknowns, const OrbitEvaluation& at, Eigen::VectorXd& right);
     Eigen::MatrixXd condensed(const OrbitEvaluation& at, const Eigen::MatrixXd& borders, Eigen::VectorXd& lack) const;

@@ -52,6 +52,9 @@ bool SecondVariation::contract(const OrbitEquations& equations, const OrbitEvalu
             for (std::size_t i = 0; i < states_; ++i)
                 if (std::ranges::find(at.active, i) == at.active.end())
                     weights.row(1 + index(i)).setZero();
+        for (std::size_t i = 0; k + 1 == layout.pieces() && i < states_; ++i)
+            if (const auto& with = equations.model().states[i].drifts_with)
+                weights.row(1 + index(*with)) -= weights.row(1 + index(i));
         change -= weights.bottomRows(n).transpose() * tangent.of_gain;
         gradients.middleCols(place, n + 1) += change.leftCols(n + 1);
         gradients.rightCols(q) += change.rightCols(q);

@@ -1,7 +1,9 @@
 #include "graze/orbit/solve.hpp"
 
+#include "base/concatenated.hpp"
 #include "base/enumerator_name.hpp"
 #include "graze/base/input_error.hpp"
+#include "graze/model/conserved.hpp"
 #include "orbit/newton.hpp"
 #include "orbit/shooting.hpp"
 #include "orbit/solve_equilibrium.hpp"
@@ -39,6 +41,19 @@ bool improves(OrbitEquations& equations, const Eigen::VectorXd& unknowns, const 
         improved = possible && (tried.residual <= (1 - 0.1 * factor) * at.residual || size < 1e-6);
     }
     return improved;
+}
+
+/// Speed at the start, in units of that of the candidate, below which an orbit has become an equilibrium.
+constexpr double at_rest = 1e-6;
+
+/// Returns the magnitude of the vector field at an orbit's first start, in scaled states.
+double speed(const System& system, const Orbit& orbit, const Eigen::VectorXd& scales) {
+    const std::vector<double> rates =
+        system.mode(orbit.signature[0].mode).rates(concatenated(orbit.starts[0], orbit.parameters));
+    double square = 0;
+    for (std::size_t i = 0; i < rates.size(); ++i)
+        square += std::pow(rates[i] / scales[index(i)], 2);
+    return std::sqrt(square);
 }
 
 /// Returns the first segment whose duration is smaller than its change by round-off of the states. At a double root,
@@ -111,6 +126,10 @@ bool is_stable(const OrbitSolution& solution) {
                    return one.real() < -margin;
                });
     const auto& multipliers = solution.multipliers;
+    constexpr double off_circle = 1e-6; // a double multiplier is known only to the root of its uncertainty
+    if (solution.neutral > 0)
+        return !multipliers.empty() &&
+               std::ranges::all_of(multipliers, [](auto one) { return std::abs(one) < 1 + off_circle; });
     return !multipliers.empty() &&
            std::ranges::all_of(multipliers, [](auto one) { return std::abs(one) < 1 - on_circle; });
 }
@@ -124,7 +143,8 @@ std::size_t unstable_directions(const OrbitSolution& solution) {
 }
 
 OrbitOutcome solve_equations(OrbitEquations& equations, Eigen::VectorXd& unknowns, const OrbitOptions& options,
-                             OrbitEvaluation& at, std::size_t& iterations, std::string& detail) {
+                             OrbitEvaluation& at, std::size_t& iterations, std::string& detail,
+                             std::size_t undetermined) {
     const Eigen::MatrixXd no_borders(0, index(equations.unknowns()));
     const Eigen::VectorXd nothing(0);
     if (!equations.evaluate(unknowns, at)) {
@@ -141,10 +161,11 @@ OrbitOutcome solve_equations(OrbitEquations& equations, Eigen::VectorXd& unknown
     const auto damped = [&](const Eigen::VectorXd& step) { return improves(equations, unknowns, step, at, tried); };
     for (iterations = 1; iterations <= options.iterations; ++iterations) {
         Eigen::VectorXd step;
-        std::size_t deficiency = 0;
-        const bool solved = equations.solve(at, no_borders, nothing, false, step);
+        std::size_t deficiency = undetermined;
+        const bool solved = deficiency > 0 ? equations.solve_nearest(at, step, deficiency)
+                                           : equations.solve(at, no_borders, nothing, false, step);
         // In a family of orbits take the nearest one: along the family, round-off determines the step.
-        if (!solved || largest(step, equations.scales()) > far_off * at.residual) {
+        if (deficiency == 0 && (!solved || largest(step, equations.scales()) > far_off * at.residual)) {
             Eigen::VectorXd nearest;
             if (equations.solve_nearest(at, nearest, deficiency) && deficiency > 0)
                 step = nearest;
@@ -184,6 +205,18 @@ void describe_orbit(OrbitEquations& equations, const OrbitEvaluation& at, OrbitS
             multiplier *= multiplier;
     }
     solution.certificate = certify(equations, at, held);
+}
+
+void mark_neutral(OrbitSolution& solution, std::size_t count) {
+    solution.neutral = count;
+    for (auto* const multipliers : {&solution.multipliers, &solution.half_multipliers}) {
+        std::vector<std::complex<double>*> nearest;
+        for (std::complex<double>& one : *multipliers)
+            nearest.push_back(&one);
+        std::ranges::sort(nearest, {}, [](const auto* one) { return std::abs(*one - 1.0); });
+        for (std::size_t i = 0; i < std::min(count, nearest.size()); ++i)
+            *nearest[i] = 1;
+    }
 }
 
 bool is_in_family(OrbitEquations& equations, const OrbitEvaluation& at) {
@@ -229,6 +262,9 @@ void join_drifts(const Simulation& simulation, Orbit& orbit) {
             const double end = at.pieces[shooting.layout().last_piece(s)].after[i] + shift[i];
             shift[i] = end - orbit.starts[s + 1][i];
             orbit.starts[s + 1][i] = end;
+            for (std::size_t j = 0; j < states.size(); ++j)
+                if (states[j].drifts_with == i)
+                    orbit.starts[s + 1][j] += shift[i];
         }
 }
 
@@ -242,13 +278,23 @@ OrbitSolution solve_orbit(const System& system, const Orbit& candidate, const Or
     Shooting shooting(simulation, candidate, {});
     Eigen::VectorXd unknowns = shooting.unknowns_of(candidate);
     OrbitEvaluation at = shooting.evaluation();
+    const Eigen::VectorXd scales = shooting.scales();
     OrbitSolution solution;
-    solution.outcome = solve_equations(shooting, unknowns, options, at, solution.iterations, solution.detail);
+    // Where something is conserved the orbit is one of a family, unless a state that contacts only reverse is held.
+    const bool is_one_of_many = conserves_something(model, candidate.parameters) && shooting.evaluate(unknowns, at) &&
+                                moving_neutral_states(shooting, at) == 0;
+    solution.outcome =
+        solve_equations(shooting, unknowns, options, at, solution.iterations, solution.detail, is_one_of_many ? 1 : 0);
     solution.orbit = shooting.orbit_of(unknowns);
     solution.residual = at.residual;
     if (solution.outcome == OrbitOutcome::converged && !(solution.orbit.period() > no_time * candidate.period())) {
         solution.outcome = OrbitOutcome::not_converged;
         solution.detail = "Newton's method converged to an orbit of zero duration";
+    }
+    if (is_one_of_many && solution.outcome == OrbitOutcome::converged &&
+        !(speed(system, solution.orbit, scales) > at_rest * speed(system, candidate, scales))) {
+        solution.outcome = OrbitOutcome::not_converged;
+        solution.detail = "Newton's method converged to an equilibrium, at which the family ends";
     }
     if (solution.outcome != OrbitOutcome::converged)
         return solution;

@@ -1,6 +1,8 @@
 #include "page/point_actions.hpp"
 
+#include "base/concatenated.hpp"
 #include "graze/base/rounded.hpp"
+#include "graze/branch/monitor.hpp"
 #include "graze/orbit/signature.hpp"
 #include "graze/symbolic/transform.hpp"
 
@@ -214,6 +216,32 @@ private:
     std::vector<PointAction> actions_;
 };
 
+/// Adds the coordinates of the family of an orbit: first that along which it was followed.
+void add_families(const PointOrigin& origin, std::vector<AlongParameter>& result) {
+    if (!origin.orbit)
+        return;
+    const Orbit& orbit = origin.orbit->point.solution.orbit;
+    if (orbit.segments() == 0 || is_rest(orbit.signature))
+        return;
+    const bool follows = origin.asked.is_followed();
+    const BranchSettings settings = follows ? origin.asked.branch().settings : BranchSettings();
+    const auto add = [&](const std::string& name, double value) {
+        const bool followed = settings.family && settings.family->name() == name;
+        const double reach = value != 0 ? 0.5 * std::abs(value) : 1;
+        const AlongParameter one{
+            name, followed && settings.least ? *settings.least : rounded(value - reach, proposed_digits),
+            followed && settings.greatest ? *settings.greatest : rounded(value + 2 * reach, proposed_digits)};
+        result.insert(followed ? result.begin() : result.end(), one);
+    };
+    for (const ConservedQuantity& conserved : origin.model.conserved) {
+        const Expression value =
+            monitor_of_conserved(origin.model, conserved.name).expression_in(orbit.signature[0].mode);
+        add(conserved.name, origin.model.function_of({&value, 1})(concatenated(orbit.starts[0], orbit.parameters))[0]);
+    }
+    if (settings.family && settings.family->conserved.empty())
+        add(settings.family->name(), orbit.period());
+}
+
 } // namespace
 
 std::vector<AlongParameter> proposed_parameters(const PointOrigin& origin) {
@@ -233,7 +261,8 @@ std::vector<AlongParameter> proposed_parameters(const PointOrigin& origin) {
         // nothing is followed or varied
     } else if (origin.asked.is_followed()) {
         const BranchSettings& settings = origin.asked.branch().settings;
-        add(settings.parameter.place(), settings.least, settings.greatest);
+        if (!settings.family)
+            add(settings.parameter.place(), settings.least, settings.greatest);
         for (const FreeBounds& other : settings.free_bounds)
             add(other.parameter.place(), other.least, other.greatest);
         for (const ParameterId other : settings.free)
@@ -247,6 +276,7 @@ std::vector<AlongParameter> proposed_parameters(const PointOrigin& origin) {
         add(origin.model.independent_parameter(name).place(), {}, {});
     for (std::size_t p = 0; p < names.size(); ++p)
         add(p, {}, {});
+    add_families(origin, result);
     return result;
 }
 

@@ -258,6 +258,8 @@ private:
             return false;
         if (one.kind == Monitor::Kind::duration)
             return one.name == "period";
+        if (one.kind == Monitor::Kind::conserved)
+            return find_named(origin_.model.conserved, one.name).has_value();
         return one.kind == Monitor::Kind::maximum && one.name == "max_" + to_string(one.expression);
     }
 
@@ -268,6 +270,8 @@ private:
             return one.segment.empty() ? "\"period\"" : fmt::format("{{ duration = {} }}", segment);
         if (one.kind == Monitor::Kind::multiplier)
             return fmt::format("{{ multiplier = {} }}", one.place);
+        if (one.kind == Monitor::Kind::conserved)
+            return fmt::format("{{ conserved = {} }}", toml_string(one.name));
         return fmt::format("{{ {} = {}{} }}", monitor_kinds().at(static_cast<std::size_t>(one.kind)),
                            value_of_written(written_text(one.expression)),
                            one.segment.empty() ? "" : fmt::format(", at = {}", segment));

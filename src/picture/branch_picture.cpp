@@ -29,6 +29,14 @@ std::optional<PointType> kept_of(const StoredRun& run) {
     return parent ? orbit_to_start_from(*asked.start, stored_run(*parent), run.file).point.type : PointType::regular;
 }
 
+/// Returns what varies along a run: the coordinate of a family, or the first parameter.
+std::string coordinate_of(const StudyPicture& picture, const StoredRun& run) {
+    if (run.record.kind == name_of(RunKind::follow))
+        if (const auto family = stored_run(run.record).branch().settings.family)
+            return family->name();
+    return first_coordinate(picture, run);
+}
+
 /// Monitors of the first run that all runs have, or the period; for a curve its second parameter.
 std::vector<std::string> default_values(const std::vector<StoredRun>& runs) {
     std::vector<std::string> names;
@@ -93,7 +101,7 @@ ResultPicture branch_picture(const StudyPicture& picture, const ResultFile& file
             throw InputError(picture.place, fmt::format("run '{}' is of kind {}, not a branch", name, run.record.kind),
                              "leave the kind of picture out to have it drawn by its own kind");
     }
-    const std::string x = picture.x.empty() ? first_coordinate(picture, runs.front()) : picture.x;
+    const std::string x = picture.x.empty() ? coordinate_of(picture, runs.front()) : picture.x;
     const std::vector<std::string> values = picture.y.empty() ? default_values(runs) : picture.y;
     const std::vector<std::size_t> colours = colours_of(picture, runs);
     std::vector<DrawnBranch> branches;

@@ -26,9 +26,12 @@ bool is_period(const Monitor& monitor) {
 
 void StepLines::begin(const StudyRun& run, const std::string& part) {
     const std::vector<std::string> names = run.model.independent_parameters();
-    const std::size_t parameter = run.branch().settings.parameter.place();
-    std::string line = fmt::format("{:>5} {:<4} {:<6} {:>{}}", "step", "type", "label",
-                                   parameter < names.size() ? names[parameter] : "parameter", wide);
+    const BranchSettings& settings = run.branch().settings;
+    const std::size_t parameter = settings.parameter.place();
+    const std::string along = settings.family && run.kind != RunKind::curve ? settings.family->name()
+                              : parameter < names.size()                    ? names[parameter]
+                                                                            : "parameter";
+    std::string line = fmt::format("{:>5} {:<4} {:<6} {:>{}}", "step", "type", "label", along, wide);
     if (const auto second = second_parameter(run))
         line += fmt::format(" {:>{}}", names[second->place()], wide);
     line += fmt::format(" {:>{}} {:<6}", "period", wide, "stable");

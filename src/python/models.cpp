@@ -65,6 +65,13 @@ py::list quantities_of(const HeldModel& self) {
     return list;
 }
 
+py::list conserved_of(const HeldModel& self) {
+    py::list list;
+    for (const ConservedQuantity& one : self.model.conserved)
+        list.append(py::make_tuple(one.name, one.text, one.unit));
+    return list;
+}
+
 py::list transitions_of(const HeldModel& self) {
     py::list list;
     for (const Transition& one : self.model.transitions)
@@ -109,6 +116,7 @@ void bind_models(py::module_& module) {
         .def_property_readonly("symmetries",
                                [](const HeldModel& self) { return names_and_texts(self.model.symmetries); })
         .def_property_readonly("quantities", &quantities_of)
+        .def_property_readonly("conserved", &conserved_of)
         .def_property_readonly("transitions", &transitions_of)
         .def_property_readonly("definitions",
                                [](const HeldModel& self) { return names_and_texts(self.model.definitions); })

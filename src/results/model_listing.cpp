@@ -1,4 +1,6 @@
 #include "graze/results/model_table.hpp"
+
+#include "graze/model/conserved.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "model/model_words.hpp"
 
@@ -11,9 +13,14 @@ namespace graze {
 
 namespace {
 
-std::string kind_words(const State& state) {
+/// @param free nothing depends on the state
+std::string kind_words(const Model& model, const State& state, bool free) {
     if (state.period)
         return fmt::format(" (cyclic, period {})", to_string(*state.period));
+    if (free)
+        return " (phase-free: nothing depends on it, and orbits may drift)";
+    if (state.drifts_with)
+        return fmt::format(" (may be translated together with {})", model.states[*state.drifts_with].name);
     return state.drifting ? " (drifting)" : "";
 }
 
@@ -59,9 +66,11 @@ std::string model_listing(const Model& model) {
     ModelListing listing;
     listing.heading(model.states.size(), "state (initial value)", "states (initial values)");
     const std::vector<double> states = model.initial_state();
+    const std::vector<std::size_t> free =
+        model.conserved.empty() ? std::vector<std::size_t>() : phase_free_states(model);
     for (std::size_t i = 0; i < states.size(); ++i)
         listing.row({model.states[i].name, fmt::format("= {}", states[i]), model.states[i].unit,
-                     model.states[i].text + kind_words(model.states[i])});
+                     model.states[i].text + kind_words(model, model.states[i], std::ranges::count(free, i) > 0)});
     listing.heading(model.parameters.size(), "parameter", "parameters");
     const std::vector<double> parameters = all_parameter_values(model);
     for (std::size_t i = 0; i < parameters.size(); ++i) {
@@ -94,6 +103,9 @@ std::string model_listing(const Model& model) {
         listing.row({item.name, fmt::format("{}", fmt::join(images_of(model, item), ", ")), item.text});
     listing.heading(model.quantities.size(), "quantity", "quantities");
     for (const Quantity& item : model.quantities)
+        listing.row({item.name, item.unit, item.text});
+    listing.heading(model.conserved.size(), "conserved quantity", "conserved quantities");
+    for (const ConservedQuantity& item : model.conserved)
         listing.row({item.name, item.unit, item.text});
     if (model.drawing)
         listing.heading(model.drawing->shapes.size(), "drawn shape", "drawn shapes");

@@ -52,6 +52,12 @@ Table model_table(const Model& model) {
     }
     for (const Quantity& item : model.quantities)
         table.add("quantity", item.name, formula(item.value), item.unit, item.text);
+    for (const ConservedQuantity& item : model.conserved) {
+        if (!item.value.empty())
+            table.add("conserved quantity", item.name, formula(item.value), item.unit, item.text);
+        for (const ConservedQuantity::InMode& own : item.modes)
+            table.add("conserved in " + own.mode, item.name, formula(own.value), item.unit, item.text);
+    }
     return table;
 }
 

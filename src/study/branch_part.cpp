@@ -62,6 +62,13 @@ void PointWriter::note_image(OrbitRecord& record) {
 
 namespace {
 
+/// Returns the value of the parameter that varies; 0 along families, and if there is none.
+double parameter_at(const StudyRun& run, const Orbit& orbit) {
+    const BranchSettings& settings = run.branch().settings;
+    const bool none = orbit.parameters.empty() || (settings.family && run.kind != RunKind::curve);
+    return none ? 0 : orbit.parameters[settings.parameter.place()];
+}
+
 /// @param again an earlier part of the run has the same first point, which therefore ends neither of them
 SpecialPoint regular_point(const BranchPoint& point, bool again) {
     SpecialPoint result;
@@ -87,7 +94,7 @@ SpecialPoint failed_start(const BranchPart& part, const StudyRun& run, const std
     point.solution.orbit = part.orbit;
     point.solution.certificate.admissible = false;
     point.solution.certificate.reason = "no orbit was found";
-    point.parameter = part.orbit.parameters[run.branch().settings.parameter.place()];
+    point.parameter = parameter_at(run, part.orbit);
     point.bracket = {not_a_number, not_a_number};
     return point;
 }
@@ -119,7 +126,7 @@ SpecialPoint point_of_solution(const StudyRun& run, const System& system, OrbitS
         point.solution.certificate.admissible = false;
         point.solution.certificate.reason = "no orbit was found";
     }
-    point.parameter = orbit.parameters.empty() ? 0 : orbit.parameters[run.branch().settings.parameter.place()];
+    point.parameter = parameter_at(run, orbit);
     point.bracket = {not_a_number, not_a_number};
     return point;
 }

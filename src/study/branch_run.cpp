@@ -185,7 +185,8 @@ std::vector<BranchPart> parts_from_orbit(const StudyRun& run, const System& syst
     if (run.kind == RunKind::curve)
         return parts_of_curve(run, system, point);
     const bool same_parameter = (parent.kind == RunKind::follow || parent.kind == RunKind::ladder) &&
-                                parent.branch().settings.parameter == run.branch().settings.parameter;
+                                parent.branch().settings.parameter == run.branch().settings.parameter &&
+                                parent.branch().settings.family == run.branch().settings.family;
     std::string onto = start.onto;
     if (onto.empty())
         onto = kind_of(point.type).has_bifurcating_branch && same_parameter ? "other" : "same";

@@ -94,7 +94,9 @@ void add_axes(Facts& facts, const StudyRun& run) {
         const auto bound = [](const std::optional<double>& value) {
             return value ? fmt::format("{:.6g}", *value) : std::string("anywhere");
         };
-        std::string along = fmt::format("{} from {} to {}, followed", names[branch.parameter.place()],
+        std::string along = fmt::format("{} from {} to {}, followed",
+                                        run.kind == RunKind::curve ? names[branch.parameter.place()]
+                                                                   : coordinate_name(branch, run.model),
                                         bound(branch.least), bound(branch.greatest));
         if (run.kind == RunKind::curve && !branch.free_bounds.empty()) {
             const FreeBounds& other = branch.free_bounds.front();

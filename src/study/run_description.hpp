@@ -80,16 +80,29 @@ void describe_sampling(Fields& fields, One& sampling, const Model& model) {
 template <class Fields, class One>
 void describe_monitor(Fields& fields, One& monitor) {
     fields.field("name", monitor.name);
-    fields.number("kind", monitor.kind, static_cast<std::size_t>(Monitor::Kind::multiplier) + 1);
+    fields.number("kind", monitor.kind, static_cast<std::size_t>(Monitor::Kind::conserved) + 1);
     fields.field("segment", monitor.segment);
     if (monitor.kind == Monitor::Kind::multiplier)
         fields.field("place", monitor.place);
     else if (monitor.kind != Monitor::Kind::duration)
         fields.expression("expression", monitor.expression);
+    if (fields.has("in_modes", !monitor.in_modes.empty()))
+        fields.expressions("in_modes", monitor.in_modes);
     describe_fields(fields, "fixed", monitor.fixed, "crossings", monitor.crossings);
     fields.optional("held", monitor.held);
     fields.optional("least", monitor.least);
     fields.optional("greatest", monitor.greatest);
+}
+
+/// What varies along a family.
+template <class Fields, class Settings>
+void describe_family(Fields& fields, Settings& branch) {
+    if (!fields.has("family", branch.family.has_value()))
+        return;
+    fields.follows(branch.family, std::optional<FamilyCoordinate>(FamilyCoordinate()));
+    fields.field("family", branch.family->conserved);
+    fields.optional("family_least", branch.family_least);
+    fields.optional("family_greatest", branch.family_greatest);
 }
 
 /// Along which parameters a branch is followed, and how far.
@@ -98,12 +111,15 @@ void describe_path(Fields& fields, Run& run, const std::vector<std::string>& par
     auto& branch = run.branch().settings;
     const bool plane = run.kind == RunKind::curve, ladder = run.kind == RunKind::ladder;
     fields.form({"along", plane ? "the two parameters, with their bounds"
-                                : "the parameter along which orbits are followed, with its bounds"},
+                                : "the parameter along which orbits are followed, with its bounds; or, along a family "
+                                  "at the same parameters, a conserved quantity or `period`"},
                 plane    ? "{ omega = [0, 3], V = [0, 1] }"
                 : ladder ? "{ V = [0, 1] }"
                          : "{ V = [0, 1] } or \"V\"",
                 &read_along);
-    fields.named("along", branch.parameter, parameters);
+    describe_family(fields, branch);
+    if (fields.has("along", !branch.family || plane))
+        fields.named("along", branch.parameter, parameters);
     fields.count({"steps", "steps at most, each way"}, branch.steps, {1, most_branch_steps});
     if (fields.has("work", branch.work != BranchSettings().work))
         fields.field("work", branch.work);

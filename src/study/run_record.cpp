@@ -24,9 +24,10 @@ void add_found_parameters(const StudyRun& run, RunRecord& record) {
         record.coordinates.push_back({name, run.model.parameter_unit(name)});
     };
     std::vector<std::size_t> first;
-    if (!parameters.empty())
+    const bool family = run.branch().settings.family && run.kind != RunKind::curve;
+    if (!parameters.empty() && !family)
         first.push_back(run.branch().settings.parameter.place());
-    if (run.kind == RunKind::curve)
+    if (run.kind == RunKind::curve && !run.branch().settings.free.empty())
         first.push_back(run.branch().settings.free.front().place());
     for (const std::size_t p : first)
         add(p);

@@ -51,9 +51,37 @@ void set_parameters(Model& model, const std::vector<double>& values) {
         model.set_parameter(names[i], values[i]);
 }
 
+namespace {
+
+/// Returns the orbit of a family at which its coordinate is nearest to a value.
+std::optional<OrbitRecord> nearest_in_family(const StartFrom& start, const StudyRun& parent, const ResultFile& file) {
+    const std::vector<Monitor>& monitors = parent.branch().settings.monitors;
+    const auto monitor = std::ranges::find(monitors, *start.coordinate, &Monitor::name);
+    const auto place = static_cast<std::size_t>(monitor - monitors.begin());
+    std::optional<OrbitRecord> record;
+    double least = std::numeric_limits<double>::infinity();
+    for (OrbitRecord& one : file.orbits(start.run, false)) {
+        const double value = *start.coordinate == "period"       ? one.point.solution.orbit.period()
+                             : place < one.point.monitors.size() ? one.point.monitors[place]
+                                                                 : std::numeric_limits<double>::quiet_NaN();
+        const double distance = std::abs(value - start.value);
+        if ((start.direction && one.part != *start.direction) || !(distance < least))
+            continue;
+        least = distance;
+        record = std::move(one);
+        record->point.type = PointType::regular;
+    }
+    return record;
+}
+
+} // namespace
+
 OrbitRecord orbit_to_start_from(const StartFrom& start, const StudyRun& parent, const ResultFile& file) {
     std::optional<OrbitRecord> record;
-    if (start.coordinate) {
+    const auto& family = parent.branch().settings.family;
+    if (start.coordinate && family && *start.coordinate == family->name()) {
+        record = nearest_in_family(start, parent, file);
+    } else if (start.coordinate) {
         const auto found = parent.model.find_independent_parameter(*start.coordinate);
         if (!found)
             throw InputError(start.place, fmt::format("run '{}' has no parameter '{}'", start.run, *start.coordinate),

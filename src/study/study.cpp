@@ -57,7 +57,8 @@ std::size_t BranchRequest::kept_conditions() const {
     const auto& monitors = settings.monitors;
     const auto fixed = static_cast<std::size_t>(
         std::count_if(monitors.begin(), monitors.end(), [](const Monitor& one) { return one.fixed; }));
-    return settings.free.size() - std::min(fixed, settings.free.size());
+    const std::size_t varying = settings.free.size() + (settings.family ? 1U : 0U); // besides the first
+    return varying - std::min(fixed, varying);
 }
 
 void BranchRequest::validate(RunKind kind, const Model& model) const {

@@ -13,6 +13,14 @@ namespace graze {
 
 namespace {
 
+/// Returns the names along which branches may be followed.
+std::vector<std::string> names_with_conserved(const Model& model) {
+    std::vector<std::string> names = model.independent_parameters();
+    for (const ConservedQuantity& one : model.conserved)
+        names.push_back(one.name);
+    return names;
+}
+
 ParameterId parameter_named(const StudyReader& reader, const Model& model, const TomlEntry& entry,
                             const std::string& name) {
     const auto place = model.find_independent_parameter(name);
@@ -20,7 +28,7 @@ ParameterId parameter_named(const StudyReader& reader, const Model& model, const
         reader.fail(entry,
                     model.find_parameter(name) ? fmt::format("parameter '{}' follows from others", name)
                                                : fmt::format("the model has no parameter '{}'", name),
-                    study_name_remedy(name, model.independent_parameters()));
+                    study_name_remedy(name, names_with_conserved(model)));
     return *place;
 }
 
@@ -43,6 +51,15 @@ void read_free(const StudyReader& reader, StudyRun& run, const TomlEntry& entry)
 
 namespace {
 
+/// Reads the coordinate of a family: a conserved quantity, or the period. @return whether the name is one
+bool read_family(StudyRun& run, const std::string& name) {
+    const bool is_conserved = find_named(run.model.conserved, name).has_value();
+    if (run.model.find_parameter(name) || (!is_conserved && name != "period"))
+        return false;
+    run.branch().settings.family = FamilyCoordinate{is_conserved ? name : ""};
+    return true;
+}
+
 /// Reads both parameters of a curve; the second one is the first free parameter, before those of `free`.
 void read_plane(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     BranchSettings& settings = run.branch().settings;
@@ -50,10 +67,15 @@ void read_plane(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
     if (items.size() != 2)
         reader.fail(entry, fmt::format("{} names {} parameters", entry.path, items.size()),
                     "name the two of the curve: along = { omega = [0, 3], V = [0, 1] }");
+    std::size_t parameters = 0;
     reader.each(items, [&](const TomlEntry& item) {
-        const ParameterId parameter = parameter_named(reader, run.model, item, item.name);
         const auto [least, greatest] = reader.range(run.model, item);
-        if (item.name == items[0].name) {
+        if (!settings.family && read_family(run, item.name)) {
+            std::tie(settings.family_least, settings.family_greatest) = std::pair(least, greatest);
+            return;
+        }
+        const ParameterId parameter = parameter_named(reader, run.model, item, item.name);
+        if (parameters++ == 0) {
             settings.parameter = parameter;
             std::tie(settings.least, settings.greatest) = std::pair(least, greatest);
         } else {
@@ -69,15 +91,19 @@ void read_along(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
     BranchSettings& settings = run.branch().settings;
     if (run.kind == RunKind::curve)
         return read_plane(reader, run, entry);
+    const bool may_be_family = run.kind == RunKind::follow;
     if (entry.node->is_string()) {
-        settings.parameter = parameter_named(reader, run.model, entry, reader.toml().string(entry));
+        const std::string name = reader.toml().string(entry);
+        if (!may_be_family || !read_family(run, name))
+            settings.parameter = parameter_named(reader, run.model, entry, name);
         return;
     }
     const auto items = reader.toml().entries(reader.toml().table(entry), entry.path);
     if (items.size() != 1)
         reader.fail(entry, fmt::format("{} names {} parameters", entry.path, items.size()),
                     "name the one that is followed: along = { V = [0, 1] }; `free` names further ones");
-    settings.parameter = parameter_named(reader, run.model, items[0], items[0].name);
+    if (!may_be_family || !read_family(run, items[0].name))
+        settings.parameter = parameter_named(reader, run.model, items[0], items[0].name);
     const auto [least, greatest] = reader.range(run.model, items[0]);
     settings.least = least;
     settings.greatest = greatest;
@@ -102,6 +128,16 @@ void read_monitor_kind(const StudyReader& reader, const Model& model, const Toml
     if (monitor.kind == Monitor::Kind::multiplier) {
         monitor.unit = "";
         monitor.place = reader.count(item, 1);
+        return;
+    }
+    if (monitor.kind == Monitor::Kind::conserved) {
+        const std::string quantity = reader.toml().string(item);
+        with_place(item.place, [&] {
+            const Monitor conserved = monitor_of_conserved(model, quantity);
+            monitor.unit = conserved.unit;
+            monitor.expression = conserved.expression;
+            monitor.in_modes = conserved.in_modes;
+        });
         return;
     }
     if (monitor.kind == Monitor::Kind::duration) {
@@ -148,15 +184,18 @@ Monitor read_monitor(const StudyReader& reader, const Model& model, const TomlEn
         }
     };
     reader.each_of(entry,
-                   {"value", "start", "duration", "maximum", "minimum", "mean", "norm", "multiplier", "at", "fixed",
-                    "report", "bounds"},
+                   {"value", "start", "duration", "maximum", "minimum", "mean", "norm", "multiplier", "conserved", "at",
+                    "fixed", "report", "bounds"},
                    read);
     if (kinds != 1)
         reader.fail(entry, fmt::format("{} is measured in {} ways", entry.path, kinds),
-                    "give one of value, start, duration, maximum, minimum, mean, norm or multiplier");
+                    "give one of value, start, duration, maximum, minimum, mean, norm, multiplier or conserved");
     const bool has_segment = !monitor.segment.empty();
     if (has_segment && monitor.kind == Monitor::Kind::multiplier)
         reader.fail(entry, fmt::format("{} has `at`, and multipliers are those of the whole orbit", entry.path),
+                    "leave it out");
+    if (has_segment && monitor.kind == Monitor::Kind::conserved)
+        reader.fail(entry, fmt::format("{} has `at`, and is the same everywhere on the orbit", entry.path),
                     "leave it out");
     return monitor;
 }
@@ -171,8 +210,8 @@ void read_monitors(const StudyReader& reader, StudyRun& run, const TomlEntry& en
 }
 
 const std::vector<std::string>& monitor_kinds() {
-    static const std::vector<std::string> kinds{"value",   "start", "duration", "maximum",
-                                                "minimum", "mean",  "norm",     "multiplier"};
+    static const std::vector<std::string> kinds{"value", "start", "duration",   "maximum",  "minimum",
+                                                "mean",  "norm",  "multiplier", "conserved"};
     return kinds;
 }
 
@@ -189,6 +228,8 @@ std::vector<Monitor> usual_monitors(const Model& model) {
             greatest.kind = Monitor::Kind::maximum;
             greatest.expression = model.symbol(state.name);
         }
+    for (const ConservedQuantity& one : model.conserved)
+        monitors.push_back(monitor_of_conserved(model, one.name));
     return monitors;
 }
 
@@ -237,9 +278,26 @@ void read_orbit_table(const StudyReader& reader, StudyRun& run, const TomlEntry&
         (path.is_relative() ? std::filesystem::path(reader.file()).parent_path() / path : path).string();
 }
 
+namespace {
+
+/// Adds what varies along a family to the monitors, which are columns of the results. The period is one anyway.
+void add_coordinate(BranchSettings& settings, const Model& model) {
+    if (!settings.family || settings.family->conserved.empty())
+        return;
+    const std::string& name = settings.family->conserved;
+    std::vector<Monitor>& monitors = settings.monitors;
+    if (std::ranges::find(monitors, name, &Monitor::name) == monitors.end())
+        monitors.push_back(monitor_of_conserved(model, name));
+    const auto coordinate = std::ranges::find(monitors, name, &Monitor::name);
+    std::rotate(monitors.begin(), coordinate, coordinate + 1); // it comes first
+}
+
+} // namespace
+
 void complete_branch(StudyRun& run, const RunKeys& keys) {
     BranchRequest& branch = run.branch();
     branch.settings.continuation.accuracy = branch.settings.orbit.accuracy;
+    add_coordinate(branch.settings, run.model);
     branch.every_mode = !branch.within.empty() && !keys.contains("mode");
     if (keys.contains("tolerance"))
         branch.set_tolerance(branch.simulation.tolerance);

@@ -83,6 +83,11 @@ def written(data, made):
     for name, item in data.get("quantities", {}).items():
         fields = fields_of(item, "value")
         parts["quantities"][name] = graze.Quantity(made(fields.pop("value")), **fields)
+    parts["conserved"] = {}
+    for name, item in data.get("conserved", {}).items():
+        fields = fields_of(item, "value")
+        fields["modes"] = {mode: made(own) for mode, own in fields.get("modes", {}).items()} or None
+        parts["conserved"][name] = graze.Conserved(made(fields.pop("value")) if "value" in fields else None, **fields)
     if "drawing" in data:
         parts["drawing"] = drawn(data["drawing"], made)
     return graze.Model(**parts)

@@ -22,6 +22,7 @@ struct Monitor {
         mean,       ///< time average of the expression
         norm,       ///< root mean square of the expression
         multiplier, ///< magnitude of a multiplier of the whole orbit; may be infinite
+        conserved,  ///< a conserved quantity of the motion: its value at the first start
     };
     std::string name, unit;
     Kind kind = Kind::duration;
@@ -35,7 +36,16 @@ struct Monitor {
     std::vector<double> crossings;         ///< values whose crossings are reported as points (UZ)
     std::optional<double> least, greatest; ///< bounds at which a branch ends
     std::size_t place = 1;                 ///< for multipliers: rank by magnitude, 1 for the largest
+    /// Of a conserved quantity whose expression is not the same in all modes: that in each mode.
+    std::vector<Expression> in_modes = {};
+
+    const Expression& expression_in(std::size_t mode) const {
+        return in_modes.empty() ? expression : in_modes.at(mode);
+    }
 };
+
+/// Returns the monitor of a conserved quantity. @throws InputError when the model has none of this name
+Monitor monitor_of_conserved(const Model& model, const std::string& name);
 
 /// Sets the values of monitors that are multipliers, which OrbitMonitors cannot evaluate.
 /// @param multipliers largest first; the value of a monitor beyond their number is NaN

@@ -21,9 +21,23 @@ struct FreeBounds {
     std::optional<double> least, greatest;
 };
 
+/// What varies along a family of orbits at the same parameters: a conserved quantity of the model, or the period.
+struct FamilyCoordinate {
+    std::string conserved; ///< name of the quantity; empty: the period
+    /// Returns the name of the coordinate: that of the quantity, or "period".
+    const std::string& name() const;
+    bool operator==(const FamilyCoordinate&) const = default;
+};
+
 /// What a branch follows, and where it ends.
 struct BranchSettings {
-    ParameterId parameter;    ///< the parameter that varies along the branch
+    ParameterId parameter; ///< the parameter that varies along the branch
+    /// Follow the family to which the candidate belongs, at the same parameters, instead of `parameter`, which is then
+    /// unused except on curves, whose two coordinates they are. `direction`, `least` and `greatest` are those of this
+    /// coordinate (of curves, those of `parameter`; the coordinate then has `family_least` and `family_greatest`).
+    std::optional<FamilyCoordinate> family;
+    std::optional<double> family_least, family_greatest; ///< of curves: bounds of the family's coordinate
+    std::size_t unfolded = 0; ///< set by graze: how many of the model's last parameters unfold its families
     int direction = 1;        ///< initial direction of the parameter: up (1) or down (-1)
     std::size_t steps = 1000; ///< largest number of steps
     /// Largest number of integration steps per point, beyond which the branch ends; hundreds or thousands are usual.
@@ -54,10 +68,15 @@ struct BranchSettings {
     void validate_orbit(const Model& model) const;
 };
 
+/// Returns the name of what varies along a branch: the coordinate of its family, or its parameter. Empty if the model
+/// has no parameters.
+std::string coordinate_name(const BranchSettings& settings, const Model& model);
+
 /// A computed point of a branch.
 struct BranchPoint {
     OrbitSolution solution;
-    double parameter = 0, arclength = 0;
+    double parameter = 0; ///< value of what varies along the branch
+    double arclength = 0;
     bool stable = false;          ///< all multipliers within the unit circle
     std::size_t step = 0;         ///< number of the step
     std::size_t iterations = 0;   ///< iterations of Newton's method

@@ -30,6 +30,9 @@ struct State {
     Expression initial{};               ///< in terms of parameters
     std::optional<Expression> period{}; ///< of a cyclic state, in terms of parameters; its value is kept in [0, period)
     bool drifting = false;              ///< orbits are periodic up to a translation of this state
+    /// Found by graze in models with conserved quantities: the drifting state with which this one is translated, as the
+    /// place of a foot with that of a runner.
+    std::optional<std::size_t> drifts_with{};
 };
 
 struct Definition {
@@ -109,6 +112,18 @@ struct Quantity {
     Expression value{}; ///< in terms of states, parameters and definitions
 };
 
+/// A function of the state that no motion changes, such as an energy.
+struct ConservedQuantity {
+    /// Its expression in one mode, where that is not `value`.
+    struct InMode {
+        std::string mode{};
+        Expression value{};
+    };
+    std::string name{}, unit{}, text{};
+    Expression value{}; ///< in terms of states, parameters and definitions; empty when each mode has its own
+    std::vector<InMode> modes{};
+};
+
 /// Returns the index of the item of this name, if there is one.
 template <typename Item>
 std::optional<std::size_t> find_named(const std::vector<Item>& items, std::string_view name) {
@@ -143,6 +158,7 @@ struct ModelItems {
     std::vector<Section> sections;
     std::vector<Symmetry> symmetries;
     std::vector<Quantity> quantities;
+    std::vector<ConservedQuantity> conserved;
     std::vector<Slide> slides;
     std::vector<Friction> frictions;
     std::optional<ModelDrawing> drawing;

@@ -55,6 +55,9 @@ struct OrbitSolution {
     std::vector<std::complex<double>> half_multipliers; ///< multipliers of the half map of a symmetric orbit given by
                                                         ///< its half; `multipliers` are their squares
     Certificate certificate;
+    /// Number of multipliers that are 1 because the orbit is one of a family on which something is conserved; set along
+    /// branches. Where there are any, an orbit is stable if no multiplier lies outside the unit circle.
+    std::size_t neutral = 0;
 };
 
 /// True when all multipliers have magnitudes below 1 - 1e-8, the margin of round-off at a bifurcation; of an

@@ -1,0 +1,361 @@
+#include "graze/model/conserved.hpp"
+
+#include "base/concatenated.hpp"
+#include "graze/symbolic/function.hpp"
+#include "graze/symbolic/transform.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace graze {
+
+namespace {
+
+/// Changes below this share of the terms of which they are made are round-off.
+constexpr double unchanged_share = 1e-9;
+
+/// Evaluates a conserved quantity at states around the initial one.
+class ConservedCheck {
+public:
+    ConservedCheck(Model model, const ConservedQuantity& conserved)
+        : model_(std::move(model)), name_(conserved.name), parameters_(model_.parameter_values()),
+          initial_(model_.initial_state()) {
+        for (const Mode& mode : model_.modes) {
+            const Expression* own = conserved_in(conserved, mode.name);
+            values_.push_back(own ? model_.expand(model_.graph->adopt(*own)) : model_.number(0));
+            compiled_.push_back(model_.function_of({&values_.back(), 1}));
+        }
+    }
+
+    std::string why() {
+        for (std::size_t mode = 0; mode < model_.modes.size(); ++mode)
+            if (std::string why = changed_in(mode); !why.empty())
+                return why;
+        for (std::size_t mode = 0; mode < model_.modes.size(); ++mode)
+            if (std::string why = changed_by_period(mode); !why.empty())
+                return why;
+        for (const Transition& transition : model_.transitions)
+            if (std::string why = changed_by(transition); !why.empty())
+                return why;
+        return "";
+    }
+
+private:
+    using State = std::vector<double>;
+
+    /// Calls a function with states around the initial one until it returns a text.
+    template <class Visit>
+    std::string first_of(const Visit& visit) const {
+        constexpr int states = 6;
+        double turn = 0;
+        for (const double distance : {0.01, 0.3, 1.0, 3.0})
+            for (int k = 0; k < states; ++k) {
+                State state;
+                for (const double value : initial_) {
+                    turn += 2.4; // the golden angle: values that do not repeat
+                    state.push_back(value + distance * std::sin(turn));
+                }
+                if (std::string text = visit(state); !text.empty())
+                    return text;
+            }
+        return "";
+    }
+    std::string at(const State& state) const {
+        std::string text;
+        for (std::size_t i = 0; i < state.size(); ++i)
+            text += fmt::format("{}{} = {:.4g}", i == 0 ? "" : ", ", model_.states[i].name, state[i]);
+        return text;
+    }
+    double value(std::size_t mode, const State& state) const {
+        return compiled_[mode](concatenated(state, parameters_))[0];
+    }
+
+    /// The rate is a sum over states of products of a derivative and a rate, whose terms measure it.
+    std::string changed_in(std::size_t mode) {
+        const std::vector<Expression> states = model_.state_symbols();
+        const std::vector<Expression> rates = model_.expand(model_.modes[mode].rates);
+        std::vector<Expression> terms = jacobian({&values_[mode], 1}, states);
+        for (std::size_t i = 0; i < states.size(); ++i)
+            terms[i] = terms[i] * rates[i];
+        const Function all = model_.function_of(terms);
+        return first_of([&](const State& state) -> std::string {
+            double sum = 0, size = 0;
+            for (const double term : all(concatenated(state, parameters_))) {
+                sum += term;
+                size += std::abs(term);
+            }
+            if (!std::isfinite(size) || std::abs(sum) <= unchanged_share * size)
+                return "";
+            return fmt::format("'{}' is not conserved: in mode '{}' it changes at the rate {:.4g} (at {})", name_,
+                               model_.modes[mode].name, sum, at(state));
+        });
+    }
+
+    std::string changed_by_period(std::size_t mode) {
+        const std::vector<double> periods = model_.periods();
+        return first_of([&](State state) -> std::string {
+            const double before = value(mode, state);
+            for (std::size_t i = 0; i < periods.size(); ++i) {
+                if (!(periods[i] > 0))
+                    continue;
+                const double start = state[i];
+                state[i] += periods[i];
+                const double after = value(mode, state);
+                state[i] = start;
+                if (changes(before, after))
+                    return fmt::format("'{}' is not conserved: after a period of '{}' it is {:.6g} instead of {:.6g}",
+                                       name_, model_.states[i].name, after, before);
+            }
+            return "";
+        });
+    }
+    static bool changes(double before, double after) {
+        constexpr double tolerance = 1e-8;
+        return std::isfinite(before) && std::isfinite(after) &&
+               std::abs(after - before) > tolerance * (std::abs(before) + std::abs(after));
+    }
+
+    /// Compares the values on both sides of a transition, at states on the surface of its event that fall through it.
+    std::string changed_by(const Transition& transition) {
+        const std::vector<Expression> states = model_.state_symbols();
+        const Expression surface = model_.expand(model_.events[transition.event].function);
+        std::vector<Expression> with_gradient = jacobian({&surface, 1}, states);
+        with_gradient.insert(with_gradient.begin(), surface);
+        const Function function = model_.function_of(with_gradient);
+        const Function rates = model_.function_of(model_.expand(model_.modes[transition.mode].rates));
+        std::vector<Expression> images = states;
+        for (const StateMap::Change& change : model_.jumps[transition.jump].map.changes())
+            images[change.state] = model_.expand(change.image);
+        const Function jump = model_.function_of(images);
+        return first_of([&](State state) -> std::string {
+            if (!put_on(function, state) || !(rate_on(function, rates, state) < 0))
+                return "";
+            const State after = jump(concatenated(state, parameters_));
+            const auto next = mode_after(transition, after);
+            if (!next || !changes(value(transition.mode, state), value(*next, after)))
+                return "";
+            return fmt::format("'{}' is not conserved: the transition '{}' changes it from {:.6g} to {:.6g} (at {})",
+                               name_, transition.label, value(transition.mode, state), value(*next, after), at(state));
+        });
+    }
+    /// Moves a state onto a surface by Newton's method.
+    bool put_on(const Function& with_gradient, State& state) const {
+        constexpr int iterations = 40;
+        constexpr double on_surface = 1e-13;
+        for (int i = 0; i < iterations; ++i) {
+            const std::vector<double> all = with_gradient(concatenated(state, parameters_));
+            double square = 0, size = 0;
+            for (std::size_t k = 0; k < state.size(); ++k) {
+                square += all[1 + k] * all[1 + k];
+                size += std::abs(all[1 + k] * state[k]);
+            }
+            if (!std::isfinite(all[0]) || !std::isfinite(square) || square == 0)
+                return false;
+            if (std::abs(all[0]) <= on_surface * size)
+                return true;
+            for (std::size_t k = 0; k < state.size(); ++k)
+                state[k] -= all[0] * all[1 + k] / square;
+        }
+        return false;
+    }
+    double rate_on(const Function& with_gradient, const Function& rates, const State& state) const {
+        const std::vector<double> inputs = concatenated(state, parameters_), all = with_gradient(inputs),
+                                  field = rates(inputs);
+        double rate = 0;
+        for (std::size_t k = 0; k < state.size(); ++k)
+            rate += all[1 + k] * field[k];
+        return rate;
+    }
+    /// Returns the mode that follows a transition; empty at its end, or where no condition holds.
+    std::optional<std::size_t> mode_after(const Transition& transition, const State& after) {
+        for (const Alternative& alternative : transition.next) {
+            const bool holds = std::ranges::all_of(alternative.when, [&](const Condition& condition) {
+                const Expression function = model_.expand(condition.function);
+                return model_.function_of({&function, 1})(concatenated(after, parameters_))[0] >= 0;
+            });
+            if (holds)
+                return alternative.mode;
+        }
+        return std::nullopt;
+    }
+
+    Model model_;
+    std::string name_;
+    std::vector<double> parameters_;
+    State initial_;
+    std::vector<Expression> values_; ///< in each mode
+    std::vector<Function> compiled_;
+};
+
+/// The gradients of everything on which a motion depends, at a number of states: a translation of states along which
+/// all of them vanish does not change the motion.
+class Translations {
+public:
+    explicit Translations(const Model& model) : model_(model) {
+        const std::vector<Expression> states = model_.state_symbols();
+        std::vector<Expression> all;
+        const auto add = [&](const Expression& one) { all.push_back(model_.expand(one)); };
+        for (const Mode& mode : model_.modes) {
+            for (const Expression& rate : mode.rates)
+                add(rate);
+            for (const ConservedQuantity& conserved : model_.conserved)
+                if (const Expression* own = conserved_in(conserved, mode.name))
+                    add(*own);
+        }
+        for (const Event& event : model_.events)
+            add(event.function);
+        for (const Transition& transition : model_.transitions)
+            for (const Alternative& alternative : transition.next)
+                for (const Condition& condition : alternative.when)
+                    add(condition.function);
+        for (const Section& section : model_.sections)
+            if (!section.state)
+                add(section.function);
+        for (const Jump& jump : model_.jumps)
+            for (const StateMap::Change& change : jump.map.changes())
+                add(change.image - states[change.state]);
+        gradients_ = model_.function_of(jacobian(all, states));
+        rows_ = all.size();
+    }
+    /// True when nothing changes if two states are translated together.
+    bool keep_motion(std::size_t one, std::size_t other) const {
+        constexpr double same = 1e-11;
+        const std::vector<double> initial = model_.initial_state(), parameters = model_.parameter_values();
+        const std::size_t n = initial.size();
+        double turn = 0;
+        bool moved = false;
+        for (const double distance : {0.1, 0.3, 1.0, 0.2, 0.7, 2.0}) {
+            std::vector<double> state = initial;
+            for (double& value : state)
+                value += distance * std::sin(turn += 2.4);
+            const std::vector<double> all = gradients_(concatenated(state, parameters));
+            for (std::size_t row = 0; row < rows_; ++row) {
+                const double a = all[row * n + one], b = all[row * n + other];
+                if (!std::isfinite(a) || !std::isfinite(b))
+                    continue;
+                if (std::abs(a + b) > same * (std::abs(a) + std::abs(b)))
+                    return false;
+                moved = moved || a != 0;
+            }
+        }
+        return moved;
+    }
+
+private:
+    Model model_;
+    Function gradients_;
+    std::size_t rows_ = 0;
+};
+
+/// Collects the names on which a model's motion depends.
+class Dependencies {
+public:
+    explicit Dependencies(const Model& model) : model_(model) {
+        for (const Mode& mode : model_.modes)
+            for (const Expression& rate : mode.rates)
+                add(rate);
+        for (const Event& event : model_.events)
+            add(event.function);
+        for (const Transition& transition : model_.transitions)
+            for (const Alternative& alternative : transition.next)
+                for (const Condition& condition : alternative.when)
+                    add(condition.function);
+        for (const Section& section : model_.sections)
+            if (!section.state)
+                add(section.function);
+        for (const ConservedQuantity& conserved : model_.conserved) {
+            if (!conserved.value.empty())
+                add(conserved.value);
+            for (const ConservedQuantity::InMode& own : conserved.modes)
+                add(own.value);
+        }
+        for (const Jump& jump : model_.jumps)
+            for (const StateMap::Change& change : jump.map.changes())
+                add_jump(change);
+    }
+    bool contain(const std::string& name) const { return names_.count(name) > 0; }
+
+private:
+    void add(const Expression& expression) {
+        const Expression expanded = model_.expand(expression);
+        for (const Expression& symbol : symbols_of({&expanded, 1}))
+            names_.insert(symbol.name());
+    }
+    /// A jump may shift a state: x + c, where c does not contain x.
+    void add_jump(const StateMap::Change& change) {
+        const Expression image = model_.expand(change.image), own = model_.state_symbols()[change.state];
+        const bool shifts = differentiate(image, own).is_number(1);
+        for (const Expression& symbol : symbols_of({&image, 1}))
+            if (!(shifts && symbol == own))
+                names_.insert(symbol.name());
+        if (!shifts) // the state is set, or scaled: shifted motions are not the same
+            names_.insert(own.name());
+    }
+
+    Model model_;
+    std::set<std::string> names_;
+};
+
+} // namespace
+
+const Expression* conserved_in(const ConservedQuantity& conserved, std::string_view mode) {
+    const auto own = std::ranges::find(conserved.modes, mode, &ConservedQuantity::InMode::mode);
+    if (own != conserved.modes.end())
+        return &own->value;
+    return conserved.value.empty() ? nullptr : &conserved.value;
+}
+
+std::string why_not_conserved(const Model& model, std::size_t conserved) {
+    return ConservedCheck(model, model.conserved.at(conserved)).why();
+}
+
+Model with_parameters(Model model, std::span<const double> parameters) {
+    const std::vector<std::string> names = model.independent_parameters();
+    for (std::size_t i = 0; i < std::min(names.size(), parameters.size()); ++i)
+        model.set_parameter(names[i], parameters[i]);
+    return model;
+}
+
+bool conserves_something(const Model& model, std::span<const double> parameters) {
+    if (model.conserved.empty())
+        return false;
+    const Model there = with_parameters(model, parameters);
+    for (std::size_t i = 0; i < there.conserved.size(); ++i)
+        if (why_not_conserved(there, i).empty())
+            return true;
+    return false;
+}
+
+std::vector<std::size_t> phase_free_states(const Model& model) {
+    const Dependencies dependencies(model);
+    std::vector<std::size_t> result;
+    for (std::size_t i = 0; i < model.states.size(); ++i)
+        if (!dependencies.contain(model.states[i].name))
+            result.push_back(i);
+    return result;
+}
+
+void let_phase_free_states_drift(Model& model) {
+    if (model.conserved.empty())
+        return;
+    for (const std::size_t i : phase_free_states(model))
+        if (!model.states[i].period)
+            model.states[i].drifting = true;
+    constexpr std::size_t most_states = 60; // beyond, pairs are not tried
+    if (model.states.size() > most_states)
+        return;
+    const Translations translations(model);
+    for (std::size_t i = 0; i < model.states.size(); ++i)
+        for (std::size_t j = i + 1; j < model.states.size(); ++j)
+            if (!model.states[i].period && !model.states[j].period && !model.states[i].drifts_with &&
+                translations.keep_motion(i, j)) {
+                model.states[i].drifting = true;
+                model.states[j].drifting = false;
+                model.states[j].drifts_with = i;
+            }
+}
+
+} // namespace graze
