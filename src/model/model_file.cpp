@@ -4,7 +4,7 @@
 #include "graze/base/printable.hpp"
 #include "graze/base/text_file.hpp"
 #include "model/model_completion.hpp"
-#include "model/model_file_sliding.hpp"
+#include "model/model_file_contacts.hpp"
 #include "model/model_validate.hpp"
 
 #include <fmt/format.h>
@@ -20,10 +20,10 @@ namespace graze {
 namespace {
 
 /// Reads one model, table by table.
-class ModelReader : private SlidingParts {
+class ModelReader : private ContactParts {
 public:
     ModelReader(std::string_view text, const std::string& file)
-        : SlidingParts(text, file), root_(parse_toml(text, file)) {}
+        : ContactParts(text, file), root_(parse_toml(text, file)) {}
 
     Model read() {
         if (root_.empty())
@@ -55,6 +55,7 @@ public:
         model_.jumps.front().map = identity();
         read("jumps", &ModelReader::read_jumps);
         read("modes", &ModelReader::read_modes);
+        read("contacts", &ModelReader::read_contacts);
         mistakes_.attempt([&] { name_derived_modes(model_, places_); });
         read("slides", &ModelReader::read_slides);
         read("friction", &ModelReader::read_frictions);
@@ -244,9 +245,19 @@ private:
                 places_.set(entry.path, entry.place);
                 Transition transition;
                 std::optional<std::size_t> mode, event;
+                const auto read_also = [&](const TomlEntry& part) {
+                    for (const TomlEntry& other : reader_.elements(part))
+                        transition.also.push_back(index(other, model_.events, "event"));
+                };
+                const auto read_when = [&](const TomlEntry& part) {
+                    transition.when_text = reader_.string(part);
+                    transition.when = conditions(part);
+                };
                 read_parts(entry,
                            {{"mode", index_into(mode, model_.modes, "mode")},
                             {"event", index_into(event, model_.events, "event")},
+                            {"also", read_also},
+                            {"when", read_when},
                             {"label", line_into(transition.label)},
                             {"jump", index_into(transition.jump, model_.jumps, "jump")},
                             {"next", [&](const TomlEntry& part) { transition.next = read_next(part); }},
@@ -375,9 +386,10 @@ private:
 } // namespace
 
 const std::vector<std::string>& model_keys() {
-    static const std::vector<std::string> keys{
-        "name",  "text",        "source", "time_unit", "parameters", "states",     "definitions", "modes",   "events",
-        "jumps", "transitions", "slides", "friction",  "sections",   "symmetries", "quantities",  "drawing", "initial"};
+    static const std::vector<std::string> keys{"name",        "text",        "source",   "time_unit", "parameters",
+                                               "states",      "definitions", "modes",    "events",    "jumps",
+                                               "transitions", "slides",      "friction", "contacts",  "sections",
+                                               "symmetries",  "quantities",  "drawing",  "initial"};
     return keys;
 }
 

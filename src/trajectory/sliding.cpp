@@ -64,7 +64,7 @@ bool Trajectory::is_two_fold(std::size_t event, double s) {
 /// Returns whether the series end where sliding ends to both sides.
 bool Trajectory::ends_at_two_fold() {
     return std::ranges::any_of(simulation_.model().modes[mode_].slides_on, [&](const SlidingSurface& along) {
-        return is_near_zero(along.exits[0], 0, two_fold_at_end_of_series) &&
+        return along.exits[0] != along.exits[1] && is_near_zero(along.exits[0], 0, two_fold_at_end_of_series) &&
                is_near_zero(along.exits[1], 0, two_fold_at_end_of_series);
     });
 }

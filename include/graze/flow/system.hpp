@@ -80,6 +80,10 @@ public:
     };
     struct CompiledTransition {
         std::size_t jump;
+        Function when; ///< conditions before the jump
+        std::vector<bool> strict;
+        std::vector<std::size_t> also;        ///< events that must happen at the same time, rising
+        std::optional<std::size_t> following; ///< next transition of the same mode and event
         std::vector<CompiledAlternative> next;
     };
 

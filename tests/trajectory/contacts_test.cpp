@@ -1,0 +1,246 @@
+// Motions of models with contacts, against closed forms.
+
+#include "closed_form.hpp"
+#include "simulate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+using namespace graze;
+using namespace graze::testing;
+
+namespace contacts_test {
+
+/// Balls of mass 1 in a row, of which the first hits the others, which touch each other.
+std::string cradle(int balls, const std::string& law) {
+    std::string states = "states = { ", rates, velocities, mass, contacts;
+    for (int i = 1; i <= balls; ++i) {
+        states += fmt::format("x{0} = {1}, v{0} = {2}, ", i, i == 1 ? -1 : 0, i == 1 ? 1 : 0);
+        rates += fmt::format("x{0} = \"v{0}\", v{0} = 0, ", i);
+        velocities += fmt::format("\"v{}\", ", i);
+        mass += "1, ";
+        if (i > 1)
+            contacts += fmt::format("contacts.c{1} = {{ gap = \"x{1} - x{0}\", restitution = \"e\" }}\n", i - 1, i);
+    }
+    return fmt::format("parameters.e = 1\n{0} }}\nmodes.free.rates = {{ {1} }}\ncontacts.law = \"{2}\"\n"
+                       "contacts.velocities = [{3}]\ncontacts.mass = [{4}]\n{5}",
+                       states, rates, law, velocities, mass, contacts);
+}
+
+std::vector<double> velocities_after(const std::string& model, double e, double time = 2) {
+    Model one = model_from(model);
+    one.set_parameter("e", e);
+    Experiment experiment(std::move(one));
+    EXPECT_EQ(experiment.run(time).ending, Ending::end_time) << experiment.trajectory.outcome().detail;
+    std::vector<double> result;
+    for (std::size_t i = 1; i < experiment.state().size(); i += 2)
+        result.push_back(experiment.state()[i]);
+    return result;
+}
+
+void expect_near(const std::vector<double>& values, const std::vector<double>& expected, double error = 4 * epsilon) {
+    ASSERT_EQ(values.size(), expected.size());
+    for (std::size_t i = 0; i < values.size(); ++i)
+        EXPECT_NEAR(values[i], expected[i], error) << i;
+}
+
+TEST(Contacts, TwoBallsExchangeVelocities) {
+    for (const double e : {0.0, 0.3, 1.0})
+        expect_near(velocities_after(cradle(2, "newton"), e), {(1 - e) / 2, (1 + e) / 2});
+}
+
+/// All contacts at once: those of Newton and Poisson agree if all have one coefficient (Glocker and Pfeiffer 1995).
+TEST(Contacts, ThreeBallsAtOnce) {
+    for (const char* law : {"newton", "moreau", "poisson"})
+        for (const double e : {0.0, 0.5, 0.9, 1.0})
+            expect_near(velocities_after(cradle(3, law), e), {1 - 2 * (1 + e) / 3, (1 + e) / 3, (1 + e) / 3});
+}
+
+/// One after another: without losses the last ball flies off, whatever their number (Newton's cradle).
+TEST(Contacts, CradleOneAfterAnother) {
+    for (const int balls : {2, 3, 4, 5}) {
+        std::vector<double> last(static_cast<std::size_t>(balls), 0.0);
+        last.back() = 1;
+        expect_near(velocities_after(cradle(balls, "sequence"), 1), last);
+    }
+}
+
+/// The same with losses, against collisions of pairs counted here until none approaches.
+TEST(Contacts, CradleOneAfterAnotherWithLosses) {
+    for (const double e : {0.5, 0.8, 0.95}) {
+        std::array<double, 3> v{1, 0, 0};
+        for (bool hit = true; hit;) {
+            hit = false;
+            for (const std::size_t i : {0U, 1U})
+                if (v[i] - v[i + 1] > 1e-14) {
+                    const double sum = v[i] + v[i + 1], apart = e * (v[i] - v[i + 1]);
+                    v[i] = (sum - apart) / 2;
+                    v[i + 1] = (sum + apart) / 2;
+                    hit = true;
+                }
+        }
+        expect_near(velocities_after(cradle(3, "sequence"), e), {v[0], v[1], v[2]}, 1e-13);
+    }
+}
+
+const std::string corner = R"toml(
+parameters = { e = 0.5, f = 0.25, a = 1.5 }
+states = { x = 1, y = 1, u = -1, v = -1 }
+modes.free.rates = { x = "u", y = "v", u = 0, v = 0 }
+contacts.velocities = ["u", "v"]
+contacts.mass = [1, 1]
+contacts.floor = { gap = "y", restitution = "e" }
+contacts.wall = { gap = "x*sin(a) - y*cos(a)", restitution = "f" }
+)toml";
+
+/// Both walls are met in the same instant, and at instants apart.
+TEST(Contacts, BallInARightCorner) {
+    for (const double apart : {0.0, 1e-12, 1e-3, -1e-3}) {
+        Model model = model_from(corner);
+        model.set_parameter("a", std::numbers::pi / 2);
+        model.set_initial("x", 1 + apart);
+        Experiment experiment(model);
+        EXPECT_EQ(experiment.run(3).ending, Ending::end_time);
+        EXPECT_NEAR(experiment.state()[2], 0.25, 4 * epsilon) << apart;
+        EXPECT_NEAR(experiment.state()[3], 0.5, 4 * epsilon) << apart;
+    }
+}
+
+/// In a corner of angle a both normal velocities reverse if both impulses are positive; a ball that slides along the
+/// floor into an obtuse corner takes an impulse of the wall only.
+TEST(Contacts, BallInAnObliqueCorner) {
+    const double a = 1.2, e = 0.5, f = 0.25;
+    Model model = model_from(corner);
+    model.set_parameter("a", a);
+    model.set_initial("x", 1 + std::cos(a) / std::sin(a)); // both gaps close at time 1
+    model.set_initial("u", -1 - std::cos(a) / std::sin(a));
+    Experiment experiment(model);
+    EXPECT_EQ(experiment.run(2).ending, Ending::end_time);
+    const auto normal = [&](double u, double v) { return u * std::sin(a) - v * std::cos(a); };
+    const double u = experiment.state()[2], v = experiment.state()[3];
+    EXPECT_NEAR(v, e, 8 * epsilon);
+    EXPECT_NEAR(normal(u, v), -f * normal(-1 - std::cos(a) / std::sin(a), -1), 8 * epsilon);
+
+    const double b = 2;
+    Model obtuse = model_from(corner);
+    obtuse.set_parameter("a", b);
+    obtuse.set_initial("y", 0);
+    obtuse.set_initial("v", 0);
+    Experiment sliding(obtuse);
+    EXPECT_EQ(sliding.simulation.model().modes[sliding.simulation.model().initial_mode].name, "free-floor");
+    EXPECT_EQ(sliding.run(2).ending, Ending::end_time) << sliding.trajectory.outcome().detail;
+    const double impulse = (1 + f) * std::sin(b);
+    EXPECT_NEAR(sliding.state()[2], -1 + impulse * std::sin(b), 8 * epsilon);
+    EXPECT_NEAR(sliding.state()[3], -impulse * std::cos(b), 8 * epsilon);
+}
+
+/// A ball comes to rest on a floor: closed form of the accumulation; then it stays.
+TEST(Contacts, BallComesToRest) {
+    const std::string ball = R"toml(
+parameters = { e = 0.8 }
+states = { x = 1, v = 0 }
+modes.free.rates = { x = "v", v = -1 }
+contacts.velocities = ["v"]
+contacts.mass = [2]
+contacts.floor = { gap = "x", restitution = "e" }
+)toml";
+    Experiment experiment(model_from(ball));
+    EXPECT_EQ(experiment.run(20).ending, Ending::end_time);
+    EXPECT_EQ(experiment.simulation.model().modes[experiment.trajectory.mode()].name, "free-floor");
+    EXPECT_NEAR(experiment.recorder.contacts().back().contact.time, std::sqrt(2.0) * 1.8 / 0.2, 1e-9);
+    EXPECT_EQ(experiment.state(), (std::vector<double>{0, 0}));
+}
+
+/// A disc that is thrown along a floor slips, then rolls: two sevenths of the speed are lost if I = 2/5 m r^2.
+TEST(Contacts, DiscRolls) {
+    const std::string disc = R"toml(
+parameters = { mu = 0.3, g = 9.81, r = 0.5 }
+states = { x = 0, y = "r", phi = 0, u = 7, v = 0, w = 0 }
+modes.free.rates = { x = "u", y = "v", phi = "w", u = 0, v = "-g", w = 0 }
+contacts.velocities = ["u", "v", "w"]
+contacts.mass = [1, 1, "0.4*r^2"]
+contacts.floor = { gap = "y - r", restitution = 0.5, friction = "mu", slip = "u + r*w" }
+)toml";
+    Experiment experiment(model_from(disc));
+    const Model& model = experiment.simulation.model();
+    EXPECT_EQ(model.modes[model.initial_mode].name, "free-floor-forward");
+    EXPECT_EQ(experiment.run(3).ending, Ending::end_time) << experiment.trajectory.outcome().detail;
+    EXPECT_EQ(model.modes[experiment.trajectory.mode()].name, "free-floor-stick");
+    EXPECT_NEAR(experiment.recorder.contacts().back().contact.time, 2.0 / (0.3 * 9.81), 1e-13);
+    EXPECT_NEAR(experiment.state()[3], 5, 1e-13);
+    EXPECT_NEAR(experiment.state()[5], -10, 1e-13);
+}
+
+const std::string rod = R"toml(
+parameters = { mu = 2, g = 9.81, tilt = 1 }
+states = { x = 0, y = "sin(tilt)", phi = "tilt", u = 1, v = 0, w = 0 }
+modes.free.rates = { x = "u", y = "v", phi = "w", u = 0, v = "-g", w = 0 }
+contacts.velocities = ["u", "v", "w"]
+contacts.mass = [1, 1, "1/3"]
+contacts.tip = { gap = "y - sin(phi)", restitution = 0, friction = "mu", slip = "u + w*sin(phi)" }
+)toml";
+
+/// A slender rod of length 2 that slides on its lower end: the contact force is g/(1 + 3 cos^2 - 3 mu sin cos) at
+/// first. Beyond mu = 4/3 there are angles at which the denominator is negative; at tan = 2 exactly from there on
+/// (Génot and Brogliato 1999).
+TEST(Contacts, PainlevesRod) {
+    for (const double mu : {0.5, 1.2, 4.0 / 3 - 1e-6, 4.0 / 3 + 1e-6, 2.0}) {
+        const double tilt = std::atan(2.0);
+        Model model = model_from(rod);
+        model.set_parameter("mu", mu);
+        model.set_parameter("tilt", tilt);
+        Experiment forward(model);
+        model.set_initial("u", -1);
+        Experiment backward(model);
+        const auto ending = [](Experiment& one) { return one.run(1e-9).ending; };
+        // Only slip in the direction in which the rod digs in is paradoxical.
+        EXPECT_EQ(ending(forward), mu < 4.0 / 3 ? Ending::end_time : Ending::painleve)
+            << mu << forward.trajectory.outcome().detail;
+        EXPECT_EQ(ending(backward), Ending::end_time) << mu << backward.trajectory.outcome().detail;
+        if (mu < 4.0 / 3) {
+            const Model& derived = forward.simulation.model();
+            const std::size_t mode = *derived.find_mode("free-tip-forward");
+            const double s = std::sin(tilt), c = std::cos(tilt);
+            std::vector<double> inputs = derived.initial_state();
+            for (const double value : derived.parameter_values())
+                inputs.push_back(value);
+            const std::vector<double> rates = derived.function_of(derived.modes[mode].rates)(inputs);
+            const double force = 9.81 / (1 + 3 * c * c - 3 * mu * s * c);
+            EXPECT_NEAR(rates[3], -mu * force, 1e-9 * force);
+            EXPECT_NEAR(rates[5], 3 * (mu * force * -s + force * c) * -1, 1e-9 * force * 10);
+        }
+    }
+}
+
+const std::string block = R"toml(
+parameters = { h = 1, b = 0.3, g = 9.81, mu = 5, tilt = 0.1 }
+states = { x = 0, y = "h*cos(tilt) + b*sin(tilt)", phi = "tilt", u = 0, v = 0, w = 0 }
+modes.free.rates = { x = "u", y = "v", phi = "w", u = 0, v = "-g", w = 0 }
+contacts.velocities = ["u", "v", "w"]
+contacts.mass = [1, 1, "(h^2 + b^2)/3"]
+contacts.left = { gap = "y - h*cos(phi) - b*sin(phi)", restitution = 0, friction = "mu", slip = "u + w*(h*cos(phi) + b*sin(phi))" }
+contacts.right = { gap = "y - h*cos(phi) + b*sin(phi)", restitution = 0, friction = "mu", slip = "u + w*(h*cos(phi) - b*sin(phi))" }
+)toml";
+
+/// A block rocks from corner to corner; each impact keeps 1 - 3/2 sin^2(alpha) of its speed (Housner 1963).
+TEST(Contacts, BlockRocks) {
+    Experiment experiment(model_from(block));
+    experiment.run(3);
+    EXPECT_EQ(experiment.trajectory.outcome().ending, Ending::end_time) << experiment.trajectory.outcome().detail;
+    const double ratio = 1 - 1.5 * 0.09 / 1.09;
+    int impacts = 0;
+    for (const Recorder::RecordedContact& one : experiment.recorder.contacts()) {
+        if (one.contact.kind != ContactKind::crossing || std::abs(one.before[2]) > 1e-9)
+            continue;
+        ++impacts;
+        EXPECT_NEAR(one.after[5] / one.before[5], ratio, 1e-9) << one.contact.time;
+    }
+    EXPECT_GT(impacts, 3);
+}
+
+} // namespace contacts_test
