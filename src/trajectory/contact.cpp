@@ -4,6 +4,7 @@
 
 #include "flow/guard.hpp"
 #include "trajectory/probe_tracker.hpp"
+#include "trajectory/series.hpp"
 #include "trajectory/tangents.hpp"
 
 #include <fmt/format.h>
@@ -43,6 +44,8 @@ void Trajectory::make_contact(std::size_t w, double s) {
     add_time(s);
     remember_contact(event, rate);
     std::copy(before_.begin(), before_.end(), inputs_.begin());
+    if (s == 0 && simulation_.system().transition(mode.transitions[w]).following)
+        add_simultaneous(w);
     const auto chosen =
         chosen_transition(simulation_.system(), mode.transitions[w], together_, inputs_, conditions_, work_);
     const std::size_t transition = chosen.value_or(mode.transitions[w]);
@@ -72,6 +75,18 @@ void Trajectory::make_contact(std::size_t w, double s) {
     for (const std::size_t other : simulation_.system().transition(transition).also)
         std::erase(together_, other);
     apply_transition(transition, rate);
+}
+
+/// Adds the events that happen together with one at the start of an arc: on their surfaces, and falling.
+void Trajectory::add_simultaneous(std::size_t first) {
+    const auto& mode = *compiled_mode_;
+    for (std::size_t w = 0; w < mode.watched.size(); ++w) {
+        const auto c = event_series(w);
+        const double near = 1e-12 * series_size(c, std::max(previous_step_, shortest_step()));
+        const bool known = std::ranges::find(together_, mode.watched[w]) != together_.end();
+        if (w != first && !known && std::abs(c[0]) <= near && c[1] < 0)
+            together_.push_back(mode.watched[w]);
+    }
 }
 
 /// Ends at a transition none of whose conditions hold.

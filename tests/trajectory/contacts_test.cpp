@@ -176,6 +176,31 @@ contacts.floor = { gap = "y - r", restitution = 0.5, friction = "mu", slip = "u 
     EXPECT_NEAR(experiment.state()[5], -10, 1e-13);
 }
 
+/// A rod of length 2 falls flat: both ends hit at once and come to rest at once. With one end heavier in restitution, both
+/// normal velocities still reverse by their own coefficients.
+TEST(Contacts, RodFallsFlat) {
+    const std::string flat = R"toml(
+parameters = { e = 0.5, f = 0.5 }
+states = { y = 1, phi = 0, v = 0, w = 0 }
+modes.free.rates = { y = "v", phi = "w", v = -1, w = 0 }
+contacts.velocities = ["v", "w"]
+contacts.mass = [1, "1/3"]
+contacts.left = { gap = "y - sin(phi)", restitution = "e" }
+contacts.right = { gap = "y + sin(phi)", restitution = "f" }
+)toml";
+    Model model = model_from(flat);
+    Experiment experiment(model);
+    EXPECT_EQ(experiment.run(10).ending, Ending::end_time) << experiment.trajectory.outcome().detail;
+    EXPECT_EQ(experiment.simulation.model().modes[experiment.trajectory.mode()].name, "free-left-right");
+    EXPECT_NEAR(experiment.recorder.contacts().back().contact.time, std::sqrt(2.0) * 1.5 / 0.5, 1e-9);
+    model.set_parameter("f", 0.25);
+    Experiment unequal(model);
+    unequal.run(std::sqrt(2.0) * (1 + 1e-9));
+    const double speed = std::sqrt(2.0);
+    EXPECT_NEAR(unequal.state()[2], 0.375 * speed, 1e-8);
+    EXPECT_NEAR(unequal.state()[3], -0.125 * speed, 1e-8);
+}
+
 const std::string rod = R"toml(
 parameters = { mu = 2, g = 9.81, tilt = 1 }
 states = { x = 0, y = "sin(tilt)", phi = "tilt", u = 1, v = 0, w = 0 }

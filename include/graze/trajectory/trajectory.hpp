@@ -174,6 +174,7 @@ private:
     // Transitions (contact.cpp)
     void make_contact(std::size_t watched, double s);
     void apply_transition(std::size_t transition, double rate);
+    void add_simultaneous(std::size_t first);
     void finish_without_way(std::size_t transition);
     void jump(std::size_t index);
     std::optional<std::size_t> next_mode(std::size_t transition, bool& ends);
