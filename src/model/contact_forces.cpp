@@ -43,6 +43,26 @@ Expression eliminate(ExpressionMatrix& rows, const Expression& one) {
 
 } // namespace
 
+std::vector<Expression> accelerations_by(const std::vector<Expression>& mass, const std::vector<Expression>& forces) {
+    const std::size_t n = forces.size();
+    std::vector<Expression> result;
+    if (mass.size() == n) {
+        for (std::size_t i = 0; i < n; ++i)
+            result.push_back(forces[i] / mass[i]);
+        return result;
+    }
+    ExpressionMatrix rows(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        rows[i].assign(mass.begin() + static_cast<std::ptrdiff_t>(i * n),
+                       mass.begin() + static_cast<std::ptrdiff_t>((i + 1) * n));
+        rows[i].push_back(forces[i]);
+    }
+    eliminate(rows, Expression(forces.front().graph()->number(1)));
+    for (const auto& row : rows)
+        result.push_back(row.back());
+    return result;
+}
+
 std::string contact_words(const std::string& contact, ContactState state) {
     constexpr std::string_view words[] = {"", "", "-stick", "-forward", "-backward"};
     return state == ContactState::open ? "" : fmt::format("-{}{}", contact, words[static_cast<std::size_t>(state)]);
@@ -73,7 +93,7 @@ ContactDirection ContactMechanics::direction_of(const Expression& velocity, cons
     for (const Expression& symbol : symbols_)
         direction.slopes.push_back(differentiate(velocity, symbol));
     require_linear(direction, path, what);
-    direction.response = response_to(direction.slopes);
+    direction.response = accelerations_by(mass_, direction.slopes);
     direction.acceleration = motion_.rate_along(velocity, field_);
     return direction;
 }
@@ -90,29 +110,6 @@ void ContactMechanics::require_linear(const ContactDirection& direction, const s
             if (contains_symbol(slope, symbol))
                 throw InputError(places_.of(path), fmt::format("{} is not linear in '{}'", what, symbol.name()),
                                  "give the gap in terms of positions, and velocities in which their rates are linear");
-}
-
-std::vector<std::vector<Expression>> ContactMechanics::inertia() const {
-    const std::size_t n = velocities_.size();
-    std::vector<std::vector<Expression>> rows(n, std::vector<Expression>(n, model_.number(0)));
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j < n; ++j)
-            if (mass_.size() == n * n && n > 1)
-                rows[i][j] = mass_[i * n + j];
-            else if (i == j)
-                rows[i][j] = mass_[i];
-    return rows;
-}
-
-std::vector<Expression> ContactMechanics::response_to(const std::vector<Expression>& slopes) const {
-    ExpressionMatrix rows = inertia();
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        rows[i].push_back(slopes[i]);
-    eliminate(rows, model_.number(1));
-    std::vector<Expression> response;
-    for (const auto& row : rows)
-        response.push_back(row.back());
-    return response;
 }
 
 Expression ContactMechanics::along(const ContactDirection& direction, const std::vector<Expression>& changes) const {

@@ -87,10 +87,8 @@ private:
     void require_linear(const ContactDirection& direction, const std::string& path, const std::string& what) const;
     ContactDirection direction_of(const Expression& velocity, const std::string& path, const std::string& what) const;
     Expression same_direction(const ContactDirection& one, const ContactDirection& other) const;
-    std::vector<std::vector<Expression>> inertia() const;
     void note_products();
     bool independent(const std::vector<std::size_t>& directions) const;
-    std::vector<Expression> response_to(const std::vector<Expression>& slopes) const;
 
     Model& model_;
     const Places& places_;
@@ -101,5 +99,8 @@ private:
     std::vector<std::optional<ContactDirection>> slip_;
     std::vector<double> products_; ///< see note_products
 };
+
+/// Solves M a = forces. @param mass the diagonal of the matrix M, or all rows
+std::vector<Expression> accelerations_by(const std::vector<Expression>& mass, const std::vector<Expression>& forces);
 
 } // namespace graze

@@ -56,6 +56,9 @@ public:
         read("jumps", &ModelReader::read_jumps);
         read("modes", &ModelReader::read_modes);
         read("contacts", &ModelReader::read_contacts);
+        if (top.contains("contacts"))
+            mistakes_.throw_noted(); // modes are made of what has been read
+        mistakes_.attempt([&] { set_accelerations(); });
         mistakes_.attempt([&] { name_derived_modes(model_, places_); });
         read("slides", &ModelReader::read_slides);
         read("friction", &ModelReader::read_frictions);
@@ -230,9 +233,13 @@ private:
                 for (const TomlEntry& event : reader_.elements(part))
                     mode.watched.push_back(index(event, model_.events, "event"));
             };
-            read_parts(entry, {{"text", text_into(mode.text)}, {"rates", read_rates}, {"watch", read_watch}});
+            const auto of_mode = static_cast<std::size_t>(&mode - model_.modes.data());
+            read_parts(entry, {{"text", text_into(mode.text)},
+                               {"rates", read_rates},
+                               {"forces", [&](const TomlEntry& part) { read_forces(of_mode, part); }},
+                               {"watch", read_watch}});
             for (std::size_t i = 0; i < mode.rates.size(); ++i)
-                if (const std::string& state = model_.states[i].name; mode.rates[i].empty())
+                if (const std::string& state = model_.states[i].name; mode.rates[i].empty() && !has_force(of_mode, i))
                     throw InputError(
                         rates, fmt::format("mode '{}' has no rate for the state '{}'", mode.name, state),
                         fmt::format("add {} = \"...\" to the rates; 0 for a state that does not move", state));

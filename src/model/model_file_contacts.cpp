@@ -1,12 +1,14 @@
 #include "model/model_file_contacts.hpp"
 
 #include "graze/base/input_error.hpp"
+#include "model/contact_forces.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace graze {
@@ -45,11 +47,51 @@ void ContactParts::read_contacts(const TomlEntry& group) {
     mistakes_.attempt([&] {
         if (model_.contacts.empty())
             throw InputError(group.place, "[contacts] has no contact", "add one: [contacts.floor] with gap = \"...\"");
-        if (model_.contact_settings.velocities.empty())
-            fail_missing(group, "velocities", "velocities");
-        if (model_.contact_settings.mass.empty())
-            fail_missing(group, "mass matrix", "mass");
+        for (const auto& [key, what] : {std::pair("velocities", "velocities"), std::pair("mass", "mass matrix")})
+            if (std::ranges::find(general, key, &TomlEntry::name) == general.end())
+                fail_missing(group, what, key);
     });
+}
+
+void ContactParts::read_forces(std::size_t mode, const TomlEntry& part) {
+    ModeForces& forces = forces_[mode];
+    forces.place = part.place;
+    forces.of_states.resize(model_.states.size());
+    for (const TomlEntry& force : reader_.entries(reader_.table(part), part.path))
+        forces.of_states[key_index(force, model_.states, "state")] = expression(force);
+}
+
+bool ContactParts::has_force(std::size_t mode, std::size_t state) const {
+    const auto found = forces_.find(mode);
+    return found != forces_.end() && !found->second.of_states[state].empty();
+}
+
+/// Forces stand for the rates of all velocities that contacts change.
+void ContactParts::set_accelerations() {
+    const ContactSettings& settings = model_.contact_settings;
+    for (const auto& [mode, given] : forces_) {
+        std::vector<Expression> forces;
+        for (const std::size_t velocity : settings.velocities)
+            if (!given.of_states[velocity].empty())
+                forces.push_back(given.of_states[velocity]);
+        const auto count = std::ranges::count_if(given.of_states, [](const Expression& one) { return !one.empty(); });
+        if (forces.empty() || forces.size() != settings.velocities.size() ||
+            forces.size() != static_cast<std::size_t>(count))
+            throw InputError(given.place,
+                             fmt::format("the forces of mode '{}' are not those on the velocities of [contacts]",
+                                         model_.modes[mode].name),
+                             "give one for each of these velocities, or the rates instead");
+        const std::vector<Expression> accelerations = accelerations_by(settings.mass, forces);
+        for (std::size_t i = 0; i < forces.size(); ++i) {
+            Expression& rate = model_.modes[mode].rates[settings.velocities[i]];
+            if (!rate.empty())
+                throw InputError(given.place,
+                                 fmt::format("mode '{}' has both a rate and a force for '{}'", model_.modes[mode].name,
+                                             model_.states[settings.velocities[i]].name),
+                                 "keep one of the two");
+            rate = accelerations[i];
+        }
+    }
 }
 
 void ContactParts::read_settings(const std::vector<TomlEntry>& entries) {
