@@ -212,7 +212,7 @@ private:
             add_jump("impact" + words, "velocities after an impact", modes_.velocity_map(impact.changes, impact.zero));
         choice_.add(made.next, {}, base, impact.after);
         if (made.next.empty())
-            made.next.push_back({.when = {{model_.number(-1), true}}, .when_text = "never", .mode = std::nullopt});
+            made.next.push_back(never());
         made.otherwise = no_solution(names);
         made.paradox = has_friction();
         add_rest(made, base, variant, closing, impact);
@@ -228,8 +228,8 @@ private:
             if (impact.active[i] != ContactState::open)
                 after[i] = impact.active[i];
         for (const std::size_t contact : closing)
-            if (after[contact] == ContactState::open)
-                return; // another contact keeps this one open
+            if (after[contact] == ContactState::open) // another contact keeps this one open, but all speeds vanish
+                after[contact] = modes_.mechanics(base).rubs(contact) ? ContactState::stick : ContactState::closed;
         if (!modes_.possible(base, after))
             return;
         for (std::size_t i = 0; i < after.size(); ++i)
@@ -356,7 +356,7 @@ private:
             return;
         choice_.add(made.next, {}, base, known);
         if (made.next.empty())
-            made.next.push_back({.when = {{model_.number(-1), true}}, .when_text = "never", .mode = std::nullopt});
+            made.next.push_back(never());
         made.otherwise = no_solution(what);
         made.paradox = has_friction();
         model_.transitions.push_back(std::move(made));
@@ -365,29 +365,39 @@ private:
     /// Where a determinant of the contact forces falls through zero the forces grow without bound, and beyond they are
     /// not the only ones or none exist.
     void add_paradox(const ContactVariant& variant) {
-        std::vector<Expression> needed = variant.force.regular;
-        needed.insert(needed.end(), variant.force.parallel.begin(), variant.force.parallel.end());
+        add_limits(variant, variant.force.regular, "painleve", true,
+                   "Painlevé's paradox of rigid bodies with friction: beyond this point the contact forces are not "
+                   "determined; end the motion before by an event, or take a smaller coefficient of friction");
+        add_limits(variant, variant.force.parallel, "undetermined", false,
+                   "contacts stick in more directions than the velocities have, so that their forces are not "
+                   "determined: give one of them no friction, or a body between them a degree of freedom of its own");
+    }
+
+    /// Adds events at which a motion ends because its forces cease to be determined.
+    void add_limits(const ContactVariant& variant, const std::vector<Expression>& needed, const std::string& name,
+                    bool paradox, const std::string& why) {
         for (std::size_t k = 0; k < needed.size(); ++k) {
-            const Expression& determinant = needed[k];
-            if (determinant.is_number() && determinant.node().value > 0)
+            if (needed[k].is_number() && needed[k].node().value > 0)
                 continue;
-            const std::string what = needed.size() > 1 ? fmt::format("painleve-{}", k + 1) : "painleve";
+            const std::string what = needed.size() > 1 ? fmt::format("{}-{}", name, k + 1) : name;
             const std::size_t event = derived_event(model_, places_, "contacts." + model_.contacts.front().name,
                                                     {.name = fmt::format("{}-{}", mode_name(variant.mode), what),
                                                      .text = "contact forces with friction cease to be determined",
-                                                     .function = determinant});
+                                                     .function = needed[k]});
             model_.modes[variant.mode].watched.push_back(event);
-            model_.transitions.push_back(
-                {.label = unused_label(fmt::format("{}:{}", mode_name(variant.mode), what)),
-                 .mode = variant.mode,
-                 .event = event,
-                 .next = {{.when = {{model_.number(-1), true}}, .when_text = "never", .mode = std::nullopt}},
-                 .derived = true,
-                 .otherwise = "Painlevé's paradox of rigid bodies with friction: beyond this point the contact forces "
-                              "are not determined; end the motion before by an event, or take a smaller coefficient of "
-                              "friction",
-                 .paradox = true});
+            model_.transitions.push_back({.label = unused_label(fmt::format("{}:{}", mode_name(variant.mode), what)),
+                                          .mode = variant.mode,
+                                          .event = event,
+                                          .next = {never()},
+                                          .derived = true,
+                                          .otherwise = why,
+                                          .paradox = paradox});
         }
+    }
+
+    /// Returns an alternative that is never taken: the motion ends.
+    Alternative never() const {
+        return {.when = {{model_.number(-1), true}}, .when_text = "never", .mode = std::nullopt};
     }
 
     // --- transitions of the user
