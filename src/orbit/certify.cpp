@@ -394,8 +394,7 @@ private:
             jump.map.evaluate(inputs_, after, work_);
         set_state(after);
         const std::size_t next = mode_after(s);
-        const double margin =
-            std::min(chosen, guard_margin(system_->transition(segment.index), next, inputs_, work_));
+        const double margin = std::min(chosen, guard_margin(system_->transition(segment.index), next, inputs_, work_));
         certificate_.guard_margins.push_back(margin);
         // Guards after a contact at zero speed may depend on round-off alone.
         const bool decided_by_round_off =

@@ -115,21 +115,24 @@ TEST(ContactDeclarations, TellMistakes) {
            "m.toml:11:2: contacts has no velocities; add velocities = ...");
     expect(with(corner, "mass = [1, 2]", "mass = [1]"),
            "m.toml:14:8: contacts.mass has 1 entries for 2 velocities; give one for each of the velocities");
-    expect(with(corner, "mass = [1, 2]", "mass = [[1, 2], [3, 4]]"),
-           "m.toml:14:8: the mass matrix is not symmetric: entries 2,1 and 1,2 differ; write the same expression in both "
-           "places");
+    expect(
+        with(corner, "mass = [1, 2]", "mass = [[1, 2], [3, 4]]"),
+        "m.toml:14:8: the mass matrix is not symmetric: entries 2,1 and 1,2 differ; write the same expression in both "
+        "places");
     expect(with(corner, "slip = \"u\"\n", ""),
            "m.toml:15:11: contacts.floor has no velocity along the surface; add slip = ...");
     expect(with(corner, "gap = \"x\"", "gap = \"u\""),
-           "m.toml:21:7: the rate of the gap of 'wall' does not depend on a velocity; name in `velocities` the states that "
+           "m.toml:21:7: the rate of the gap of 'wall' does not depend on a velocity; name in `velocities` the states "
+           "that "
            "impulses change, and give the gap in terms of positions whose rates contain them");
     expect(with(corner, "x = \"u\", y", "x = \"u^2\", y"),
            "m.toml:21:7: the rate of the gap of 'wall' is not linear in 'u'; give the gap in terms of positions, and "
            "velocities in which their rates are linear");
-    expect(with(corner, "gap = \"x\"", "gap = \"2*y\""),
-           "m.toml:20:11: the contacts 'floor', 'wall' are redundant: the velocity of one gap follows from the others, so "
-           "that their forces are not determined; leave one out, or give a body between them a degree of freedom of its "
-           "own");
+    expect(
+        with(corner, "gap = \"x\"", "gap = \"2*y\""),
+        "m.toml:20:11: the contacts 'floor', 'wall' are redundant: the velocity of one gap follows from the others, so "
+        "that their forces are not determined; leave one out, or give a body between them a degree of freedom of its "
+        "own");
 }
 
 } // namespace graze::contacts_test

@@ -177,8 +177,8 @@ contacts.floor = { gap = "y - r", restitution = 0.5, friction = "mu", slip = "u 
     EXPECT_NEAR(experiment.state()[5], -10, 1e-13);
 }
 
-/// A rod of length 2 falls flat: both ends hit at once and come to rest at once. With one end heavier in restitution, both
-/// normal velocities still reverse by their own coefficients.
+/// A rod of length 2 falls flat: both ends hit at once and come to rest at once. With one end heavier in restitution,
+/// both normal velocities still reverse by their own coefficients.
 TEST(Contacts, RodFallsFlat) {
     const std::string flat = R"toml(
 parameters = { e = 0.5, f = 0.5 }
