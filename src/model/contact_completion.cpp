@@ -195,6 +195,9 @@ private:
             names += (names.empty() ? "" : "-") + contact_name(contact);
         for (std::size_t i = 0; i < impact.active.size(); ++i)
             words += contact_words(contact_name(i), impact.active[i]);
+        for (std::size_t i = 0, more = 0; i < impact.again.size(); ++i)
+            if (impact.again[i] != ContactState::open)
+                words += (more++ == 0 ? "-again" : "") + contact_words(contact_name(i), impact.again[i]);
         Transition made{.label = mode_name(variant.mode) + ":" + names,
                         .mode = variant.mode,
                         .event = modes_.gap_event(closing.front()),

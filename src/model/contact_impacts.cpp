@@ -205,9 +205,12 @@ std::vector<ContactImpact> ContactImpacts::at(std::size_t base, const ContactSta
         if (law == ImpactLaw::poisson ? !solve_poisson(meeting, compressed, impact) : !solve_at_once(meeting, impact))
             return;
         note_after(meeting, impact);
-        for (std::size_t i = 0; i < active.size(); ++i)
-            if (compressed[i] != ContactState::open && active[i] == ContactState::open)
-                impact.active[i] = compressed[i];
+        if (law == ImpactLaw::poisson) {
+            impact.again = active;
+            for (std::size_t i = 0; i < active.size(); ++i)
+                if (compressed[i] != ContactState::open)
+                    impact.active[i] = compressed[i];
+        }
         result.push_back(std::move(impact));
     };
     for (const ContactStates& compressed : all) {

@@ -10,6 +10,7 @@ namespace graze {
 /// One solution of the law of impact: which contacts take impulses, and when it is this one.
 struct ContactImpact {
     ContactStates active{};            ///< `open`: takes no impulse
+    ContactStates again{};             ///< of Poisson's law: takes more in expansion than e times its compression
     std::vector<Expression> changes{}; ///< of the velocities
     std::vector<Expression> zero{};    ///< velocities that vanish after it
     std::vector<Condition> when{};     ///< before the impact

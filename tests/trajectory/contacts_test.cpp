@@ -62,6 +62,21 @@ TEST(Contacts, ThreeBallsAtOnce) {
             expect_near(velocities_after(cradle(3, law), e), {1 - 2 * (1 + e) / 3, (1 + e) / 3, (1 + e) / 3});
 }
 
+/// With different coefficients the laws differ. Poisson: impulses of compression 2/3 and 1/3, and e times these in
+/// expansion; if the second contact would approach again, more of it until it does not.
+TEST(Contacts, LawsDifferWithTheirCoefficients) {
+    const auto after = [](const std::string& law, double e, double f) {
+        std::string text = cradle(3, law);
+        const std::size_t last = text.rfind("\"e\"");
+        text.replace(last, 3, fmt::format("{}", f));
+        return velocities_after(text, e);
+    };
+    expect_near(after("newton", 0.5, 1), {0, 0.5, 0.5});
+    expect_near(after("poisson", 0.5, 1), {0, 1.0 / 3, 2.0 / 3});
+    expect_near(after("newton", 1, 0), {-1.0 / 3, 2.0 / 3, 2.0 / 3});
+    expect_near(after("poisson", 1, 0), {-1.0 / 3, 2.0 / 3, 2.0 / 3});
+}
+
 /// One after another: without losses the last ball flies off, whatever their number (Newton's cradle).
 TEST(Contacts, CradleOneAfterAnother) {
     for (const int balls : {2, 3, 4, 5}) {
@@ -268,6 +283,45 @@ TEST(Contacts, BlockRocks) {
         EXPECT_NEAR(one.after[5] / one.before[5], ratio, 1e-9) << one.contact.time;
     }
     EXPECT_GT(impacts, 3);
+    // It comes to rest on both corners, which stick together.
+    EXPECT_EQ(experiment.go_on(6).ending, Ending::end_time) << experiment.trajectory.outcome().detail;
+    EXPECT_EQ(experiment.simulation.model().modes[experiment.trajectory.mode()].name, "free-left-stick-right-stick");
+    EXPECT_NEAR(experiment.state()[2], 0, 1e-12);
+}
+
+/// The woodpecker toy, with the parameters of Leine, Glocker and van Campen (2001). Their orbit passes phiS = -0.2788
+/// with v = -0.3411 and wS = -7.4583, by time stepping; time stepping with steps of 1e-6 s gives the period 0.14598 s,
+/// v = -0.3395 and wS = -7.4620.
+TEST(Contacts, WoodpeckerPecks) {
+    const std::string woodpecker = R"toml(
+parameters = { g = 9.81, mM = 0.0003, JM = 5e-9, mS = 0.0045, JS = 7e-7, c = 0.0056, play = 0.0006, rM = 0.0031, hM = 0.0058, lM = 0.01, lG = 0.015, hS = 0.02, lS = 0.0201, reach = 0.0024, mu = 0.3 }
+states = { y = { initial = 0, drifting = true }, phiM = "-play/hM", phiS = -0.2788, v = -0.3395, wM = 0, wS = -7.462 }
+definitions.spring = "c*(phiM - phiS)"
+initial.mode = "free"
+[modes.free]
+rates = { y = "v", phiM = "wM", phiS = "wS" }
+forces = { v = "-(mS + mM)*g", wM = "-spring - mS*g*lM", wS = "spring - mS*g*lG" }
+[contacts]
+velocities = ["v", "wM", "wS"]
+mass = [["mS + mM", "mS*lM", "mS*lG"], ["mS*lM", "JM + mS*lM^2", "mS*lM*lG"], ["mS*lG", "mS*lM*lG", "JS + mS*lG^2"]]
+beak = { gap = "reach - hS*phiS", restitution = 0.5, friction = "mu", slip = "v + lM*wM + (lG - lS)*wS" }
+lower = { gap = "play + hM*phiM", restitution = 0, friction = "mu", slip = "v + rM*wM" }
+upper = { gap = "play - hM*phiM", restitution = 0, friction = "mu", slip = "v + rM*wM" }
+)toml";
+    Model model = model_from(woodpecker);
+    Experiment experiment(
+        model, {},
+        {Probe{.name = "down", .expression = model.symbol("phiS") + 0.2788, .direction = Direction::falling}});
+    EXPECT_EQ(experiment.simulation.model().modes[model.initial_mode].name, "free-lower-backward");
+    EXPECT_EQ(experiment.run(20).ending, Ending::end_time) << experiment.trajectory.outcome().detail;
+    const auto& passages = experiment.recorder.passages();
+    ASSERT_GT(passages.size(), 100U);
+    const std::size_t last = passages.size() - 1;
+    EXPECT_NEAR(passages[last].passage.time - passages[last - 1].passage.time, 0.145976, 2e-6);
+    EXPECT_NEAR(passages[last].state[3], -0.3395, 1e-4);
+    EXPECT_NEAR(passages[last].state[5], -7.4620, 2e-4);
+    EXPECT_NEAR(passages[last].state[3], -0.3411, 0.01 * 0.3411);
+    EXPECT_NEAR(passages[last].state[5], -7.4583, 0.001 * 7.4583);
 }
 
 } // namespace contacts_test
