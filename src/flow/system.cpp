@@ -358,9 +358,12 @@ void SystemCompiler::compile_transitions(System::Parts& parts) {
         compiled.when = function_of(before);
         const auto [known, added] =
             last.emplace(std::pair(transition.mode, transition.event), parts.transitions.size());
-        if (!added)
-            parts.transitions[std::exchange(known->second, parts.transitions.size())].following =
-                parts.transitions.size();
+        if (!added) {
+            System::CompiledTransition& before = parts.transitions[known->second];
+            before.following = parts.transitions.size();
+            before.one_of_many = compiled.one_of_many = true;
+            known->second = parts.transitions.size();
+        }
         for (const Alternative& alternative : transition.next) {
             std::vector<Expression> conditions;
             System::CompiledAlternative way;

@@ -104,7 +104,7 @@ bool Trajectory::classify(std::size_t w, double step) {
                            definition.name, where()));
         return false;
     }
-    const bool one_of_many = simulation_.system().transition(mode.transitions[w]).following.has_value();
+    const bool one_of_many = simulation_.system().transition(mode.transitions[w]).one_of_many;
     stick(w, one_of_many ? histories_[event].transition : mode.transitions[w], 0, 0);
     return false;
 }

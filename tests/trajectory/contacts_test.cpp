@@ -311,7 +311,7 @@ upper = { gap = "play - hM*phiM", restitution = 0, friction = "mu", slip = "v + 
     Model model = model_from(woodpecker);
     Experiment experiment(
         model, {},
-        {Probe{.name = "down", .expression = model.symbol("phiS") + 0.2788, .direction = Direction::falling}});
+        {Probe{.name = "down", .expression = model.symbol("phiS") + 0.2788, .direction = Direction::falling, .value = {}}});
     EXPECT_EQ(experiment.simulation.model().modes[model.initial_mode].name, "free-lower-backward");
     EXPECT_EQ(experiment.run(20).ending, Ending::end_time) << experiment.trajectory.outcome().detail;
     const auto& passages = experiment.recorder.passages();
