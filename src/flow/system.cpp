@@ -359,9 +359,9 @@ void SystemCompiler::compile_transitions(System::Parts& parts) {
         const auto [known, added] =
             last.emplace(std::pair(transition.mode, transition.event), parts.transitions.size());
         if (!added) {
-            System::CompiledTransition& before = parts.transitions[known->second];
-            before.following = parts.transitions.size();
-            before.one_of_many = compiled.one_of_many = true;
+            System::CompiledTransition& previous = parts.transitions[known->second];
+            previous.following = parts.transitions.size();
+            previous.one_of_many = compiled.one_of_many = true;
             known->second = parts.transitions.size();
         }
         for (const Alternative& alternative : transition.next) {
