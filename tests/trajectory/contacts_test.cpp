@@ -172,6 +172,65 @@ contacts.floor = { gap = "x", restitution = "e" }
     EXPECT_EQ(experiment.state(), (std::vector<double>{0, 0}));
 }
 
+/// A ball on a vibrating table, declared and written out with its events, jumps, modes and transitions.
+TEST(Contacts, MovingTableAsWrittenOut) {
+    const std::string head = R"toml(
+parameters = { g = 9.81, e = 0.4, a = 0.03, omega = 20 }
+states = { x = { initial = "2*a" }, v = 0, theta = { initial = 0, period = "2*pi" } }
+modes.flight.rates = { x = "v", v = "-g", theta = "omega" }
+initial.mode = "flight"
+)toml";
+    const std::string declared = head + R"toml(
+contacts.velocities = ["v"]
+contacts.mass = [1]
+contacts.table = { gap = "x - a*sin(theta)", restitution = "e" }
+)toml";
+    const std::string written = head + R"toml(
+modes.flight.watch = ["contact"]
+modes.rest.watch = ["release"]
+modes.rest.rates = { x = "velocity", v = "acceleration", theta = "omega" }
+definitions = { velocity = "a*omega*cos(theta)", acceleration = "-a*omega^2*sin(theta)" }
+events = { contact = "x - a*sin(theta)", release = "g + acceleration" }
+jumps.impact.v = "velocity - e*(v - velocity)"
+jumps.land = { x = "a*sin(theta)", v = "velocity" }
+transitions = [
+    { mode = "flight", event = "contact", jump = "impact", next = "flight", chatter = { jump = "land", mode = "rest" } },
+    { mode = "rest", event = "release", next = "flight" },
+]
+)toml";
+    Experiment one(model_from(declared)), other(model_from(written));
+    EXPECT_EQ(one.run(5).ending, Ending::end_time);
+    EXPECT_EQ(other.run(5).ending, Ending::end_time);
+    EXPECT_EQ(one.recorder.contacts().size(), other.recorder.contacts().size());
+    EXPECT_GT(one.recorder.contacts().size(), 200U);
+    expect_near(one.state(), other.state(), 1e-9);
+}
+
+/// The shipped oscillator between two stops, against the same with declared contacts, in motions that also rest at the
+/// stops.
+TEST(Contacts, TwoStopsAsShipped) {
+    const std::string stops = R"toml(
+parameters = { zeta = 0.02, omega = 1.2, amplitude = 1, sigma = 1, e = 0.7 }
+states = { x = 0, v = 0, theta = { initial = 0, period = "2*pi" } }
+modes.free.rates = { x = "v", v = "amplitude*cos(theta) - 2*zeta*v - x", theta = "omega" }
+contacts.velocities = ["v"]
+contacts.mass = [1]
+contacts.right = { gap = "sigma - x", restitution = "e" }
+contacts.left = { gap = "sigma + x", restitution = "e" }
+)toml";
+    for (const auto& [omega, e] : {std::pair(1.2, 0.7), std::pair(0.05, 0.7), std::pair(0.3, 0.2)}) {
+        Model model = model_from(stops);
+        model.set_parameter("omega", omega);
+        model.set_parameter("e", e);
+        Experiment one(model), other(shipped_with("impact-oscillator-two-stops",
+                                                  {{"omega", omega}, {"e", e}, {"zeta", 0.02}, {"sigma", 1}}));
+        EXPECT_EQ(one.run(60).ending, Ending::end_time);
+        EXPECT_EQ(other.run(60).ending, Ending::end_time);
+        EXPECT_EQ(one.recorder.contacts().size(), other.recorder.contacts().size()) << omega;
+        expect_near(one.state(), other.state(), 1e-8);
+    }
+}
+
 /// A disc that is thrown along a floor slips, then rolls: two sevenths of the speed are lost if I = 2/5 m r^2.
 TEST(Contacts, DiscRolls) {
     const std::string disc = R"toml(
@@ -309,9 +368,11 @@ lower = { gap = "play + hM*phiM", restitution = 0, friction = "mu", slip = "v + 
 upper = { gap = "play - hM*phiM", restitution = 0, friction = "mu", slip = "v + rM*wM" }
 )toml";
     Model model = model_from(woodpecker);
-    Experiment experiment(
-        model, {},
-        {Probe{.name = "down", .expression = model.symbol("phiS") + 0.2788, .direction = Direction::falling, .value = {}}});
+    Experiment experiment(model, {},
+                          {Probe{.name = "down",
+                                 .expression = model.symbol("phiS") + 0.2788,
+                                 .direction = Direction::falling,
+                                 .value = {}}});
     EXPECT_EQ(experiment.simulation.model().modes[model.initial_mode].name, "free-lower-backward");
     EXPECT_EQ(experiment.run(20).ending, Ending::end_time) << experiment.trajectory.outcome().detail;
     const auto& passages = experiment.recorder.passages();
