@@ -24,6 +24,14 @@ void ContactChoice::add(std::vector<Alternative>& to, const Alternative& given, 
         add_by_forces(to, given, base, known);
 }
 
+/// With friction the cases that come before may be without a consistent mode: those that follow must exclude them.
+Alternative ContactChoice::without(Alternative given, const std::vector<Expression>& not_negative) const {
+    if (std::ranges::any_of(model_.contacts, [](const UnilateralContact& one) { return one.friction.has_value(); }))
+        for (const Expression& function : not_negative)
+            add_condition(given.when, function, false);
+    return given;
+}
+
 /// Splits by the sign of a velocity that is not known. @return false if all are
 bool ContactChoice::add_by_sign(std::vector<Alternative>& to, const Alternative& given, std::size_t base,
                                 ContactsKnowledge& known) {
@@ -42,7 +50,7 @@ bool ContactChoice::add_by_sign(std::vector<Alternative>& to, const Alternative&
         if (known[i].normal == ContactKnowledge::Normal::unknown) {
             with(mechanics.normal(i).velocity, "separates", {});
             known[i].normal = ContactKnowledge::Normal::touching;
-            add(to, given, base, std::move(known));
+            add(to, without(given, {-mechanics.normal(i).velocity}), base, std::move(known));
             return true;
         }
         if (known[i].normal == ContactKnowledge::Normal::touching && !known[i].slip && !known[i].at_rest) {
@@ -56,7 +64,7 @@ bool ContactChoice::add_by_sign(std::vector<Alternative>& to, const Alternative&
                      state == ContactState::forward ? "slips forward" : "slips backward",
                      {ContactKnowledge::Normal::touching, state, false});
             known[i].at_rest = true;
-            add(to, given, base, std::move(known));
+            add(to, without(given, {slip, -slip}), base, std::move(known));
             return true;
         }
     }
@@ -95,6 +103,8 @@ void ContactChoice::add_by_forces(std::vector<Alternative>& to, const Alternativ
     if (smooth && to.size() > before) {
         to.back().when = given.when;
         to.back().when_text = given.when_text;
+    } else if (tell_paradox_ && modes_.possible(base, options.front())) {
+        to.push_back({given.when, given.when_text, modes_.variant(base, options.front()).mode});
     }
 }
 

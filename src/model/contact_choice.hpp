@@ -27,10 +27,14 @@ class ContactChoice {
 public:
     ContactChoice(Model& model, ContactModes& modes) : model_(model), modes_(modes) {}
 
+    /// If no mode is consistent, chooses that with most contacts closed, in which the motion ends at once and says why.
+    void tell_paradox(bool tell) { tell_paradox_ = tell; }
+
     /// Adds alternatives for what is known of the contacts. @param given conditions that hold in addition
     void add(std::vector<Alternative>& to, const Alternative& given, std::size_t base, ContactsKnowledge known);
 
 private:
+    Alternative without(Alternative given, const std::vector<Expression>& not_negative) const;
     bool add_by_sign(std::vector<Alternative>& to, const Alternative& given, std::size_t base,
                      ContactsKnowledge& known);
     void add_by_forces(std::vector<Alternative>& to, const Alternative& given, std::size_t base,
@@ -40,6 +44,7 @@ private:
 
     Model& model_;
     ContactModes& modes_;
+    bool tell_paradox_ = false;
 };
 
 /// Adds a condition unless it always holds. @return false if it never holds

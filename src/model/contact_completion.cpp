@@ -96,7 +96,9 @@ private:
             return;
         const std::size_t base = model_.initial_mode;
         std::vector<Alternative> starts;
+        choice_.tell_paradox(true);
         add_starts(starts, base, {}, ContactsKnowledge(model_.contacts.size()), 0);
+        choice_.tell_paradox(false);
         if (starts.size() == 1)
             return;
         for (Alternative& one : starts)
@@ -130,15 +132,17 @@ private:
     void complete(std::size_t base, const ContactStates& states) {
         const ContactVariant variant = modes_.variant(base, states);
         std::vector<std::size_t> watched = watched_.at(base);
+        model_.modes[variant.mode].watched.clear();
         for (std::size_t i = 0; i < states.size(); ++i)
             if (states[i] == ContactState::open && (may_close_too(base, states, i)))
                 watched.push_back(modes_.gap_event(i));
-        model_.modes[variant.mode].watched = std::move(watched);
+        add_paradox(variant); // comes before the ends of contact, whose forces mean nothing beyond it
+        std::vector<std::size_t>& all = model_.modes[variant.mode].watched;
+        all.insert(all.end(), watched.begin(), watched.end());
         add_impacts(base, variant);
         for (std::size_t i = 0; i < states.size(); ++i)
             if (states[i] != ContactState::open)
                 add_ends(base, variant, i);
-        add_paradox(variant);
         expand_transitions(base, variant);
         require_few();
     }
