@@ -318,6 +318,22 @@ TEST(Contacts, PainlevesRod) {
     }
 }
 
+/// A rod that slides fast enough runs into the point at which the determinant and the acceleration without a force
+/// vanish together: tan^2 - 3 mu tan + 4 = 0 and w^2 sin = g (Génot and Brogliato 1999).
+TEST(Contacts, PainlevesRodIsDrawnIntoTheSingularPoint) {
+    const double mu = 1.7, tangent = (3 * mu - std::sqrt(9 * mu * mu - 16)) / 2, angle = std::atan(tangent);
+    for (const double tilt : {0.6, 0.7}) {
+        Model model = model_from(rod);
+        model.set_parameter("mu", mu);
+        model.set_parameter("tilt", tilt);
+        model.set_initial("u", -20);
+        Experiment experiment(model);
+        EXPECT_EQ(experiment.run(2).ending, Ending::painleve);
+        EXPECT_NEAR(experiment.state()[2], angle, 1e-6);
+        EXPECT_NEAR(experiment.state()[5], std::sqrt(9.81 / std::sin(angle)), 1e-4);
+    }
+}
+
 const std::string block = R"toml(
 parameters = { h = 1, b = 0.3, g = 9.81, mu = 5, tilt = 0.1 }
 states = { x = 0, y = "h*cos(tilt) + b*sin(tilt)", phi = "tilt", u = 0, v = 0, w = 0 }

@@ -192,6 +192,7 @@ private:
     bool ends_at_two_fold();
     bool is_near_zero(std::size_t event, double s, double share);
     void finish_at_two_fold(double time);
+    bool finish_at_paradox(double time);
     double uncertainty_at_start(std::size_t watched, double size);
     double drift(std::size_t event, double size) const;
     bool fell_before(std::size_t watched, double at_surface);
