@@ -249,6 +249,7 @@ void complete_model(Model& model, const Places& places) {
         return;
     Model made = model; // the given one stays as it is if this fails
     validate_declarations(made, places);
+    check_contacts(made, places);
     name_derived_modes(made, places);
     made.declared = std::make_shared<const DeclaredParts>(parts_to_keep(made));
     complete_frictions(made, places, rubbing_modes(made));

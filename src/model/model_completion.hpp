@@ -36,6 +36,8 @@ std::vector<RubbingMode> rubbing_modes(const Model& model);
 inline constexpr std::array<std::string_view, 3> friction_words{"backward", "stick", "forward"};
 /// Completes frictions: replaces the modes that contain them.
 void complete_frictions(Model& model, const Places& places, const std::vector<RubbingMode>& rubbing);
+/// Checks declarations of contacts on which all that is made of them relies. @throws InputError
+void check_contacts(const Model& model, const Places& places);
 /// Completes contacts: events, jumps, modes of closed contacts.
 void complete_contacts(Model& model, const Places& places);
 /// Completes slides.

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,36 @@ std::vector<std::string> names_of_modes(const Model& model) {
     for (const Mode& mode : model.modes)
         names.push_back(mode.name);
     return names;
+}
+
+/// Returns a model whose contacts have not been completed.
+Model declared(const std::string& text) {
+    const Model made = parsed(text);
+    Model model;
+    model.graph = made.graph->copy();
+    const auto own = [&](const Expression& one) { return model.graph->adopt(one); };
+    model.name = made.name;
+    model.parameters = made.parameters;
+    model.states = made.states;
+    for (State& state : model.states)
+        state.initial = own(state.initial);
+    model.modes = {made.modes.front()};
+    model.modes.front().watched.clear();
+    for (Expression& rate : model.modes.front().rates)
+        rate = own(rate);
+    model.contacts = made.contacts;
+    for (UnilateralContact& contact : model.contacts) {
+        contact.gap = own(contact.gap);
+        contact.restitution = own(contact.restitution);
+        if (contact.friction) {
+            contact.friction = own(*contact.friction);
+            contact.slip = own(*contact.slip);
+        }
+    }
+    model.contact_settings = made.contact_settings;
+    for (Expression& mass : model.contact_settings.mass)
+        mass = own(mass);
+    return model;
 }
 
 TEST(ContactDeclarations, MakeModes) {
@@ -107,6 +138,36 @@ TEST(ContactDeclarations, OfAChangedModelAreWrittenOut) {
     EXPECT_EQ(write_model(again), text);
 }
 
+/// Forces are divided by the mass matrix.
+TEST(ContactDeclarations, ForcesStandForRates) {
+    const std::string forced = with(with(corner, "rates = { x = \"u\", y = \"v\", u = 0, v = -1 }",
+                                         "rates = { x = \"u\", y = \"v\" }\nforces = { u = 3, v = -4 }"),
+                                    "mass = [1, 2]", "mass = [[2, 1], [1, 2]]");
+    const Model model = parsed(forced);
+    const std::vector<double> rates = model.function_of(model.modes.front().rates)({{1, 1, -1, -1, 0.3}});
+    EXPECT_NEAR(rates[2], 10.0 / 3, 1e-15);
+    EXPECT_NEAR(rates[3], -11.0 / 3, 1e-15);
+}
+
+/// Of C++ models, whose parts no parser has checked.
+TEST(ContactDeclarations, OfModelsBuiltInCodeAreChecked) {
+    const Model good = declared(corner);
+    const auto expect = [&](const std::function<void(Model&)>& change, const std::string& message) {
+        Model bad = good;
+        change(bad);
+        EXPECT_NE(message_of([&] { bad.complete(); }).find(message), std::string::npos)
+            << message_of([&] { bad.complete(); });
+    };
+    expect([](Model& one) { one.contact_settings.velocities.clear(); }, "contacts change no velocity");
+    expect([](Model& one) { one.contact_settings.velocities = {0, 99}; }, "contacts.velocities");
+    expect([](Model& one) { one.contact_settings.mass.pop_back(); }, "has 1 entries for 2 velocities");
+    expect([](Model& one) { one.contact_settings.modes = {7}; }, "contacts.modes");
+    expect([](Model& one) { one.contact_settings.modes.emplace(); }, "no mode has contacts");
+    expect([](Model& one) { one.contacts[0].slip.reset(); }, "friction without slip");
+    expect([](Model& one) { one.contacts[1].gap = {}; }, "");
+    expect([](Model& one) { one.contacts[1].name = "a b"; }, "a b");
+}
+
 TEST(ContactDeclarations, TellMistakes) {
     const auto expect = [](const std::string& text, const std::string& message) {
         EXPECT_EQ(message_of([&] { parsed(text); }), message);
@@ -128,6 +189,21 @@ TEST(ContactDeclarations, TellMistakes) {
     expect(with(corner, "x = \"u\", y", "x = \"u^2\", y"),
            "m.toml:21:7: the rate of the gap of 'wall' is not linear in 'u'; give the gap in terms of positions, and "
            "velocities in which their rates are linear");
+    expect(with(corner, "\"newton\"", "\"poisson\""),
+           "m.toml:18:12: the law of Poisson is for contacts without friction, and 'floor' has friction; use law = "
+           "\"newton\" or \"moreau\", or leave the friction out");
+    expect(with(corner, "velocities = [\"u\", \"v\"]", "velocities = [\"u\", \"u\"]"),
+           "m.toml:13:14: a velocity is named twice; remove one of the two");
+    expect(with(corner, "[modes.free]\n", "[modes.free]\nforces = { u = 1 }\n"),
+           "m.toml:9:1: the forces of mode 'free' are not those on the velocities of [contacts]; give one for each of "
+           "these "
+           "velocities, or the rates instead");
+    expect(with(corner, "[modes.free]\n", "[modes.free]\nforces = { u = 1, v = 2 }\n"),
+           "m.toml:9:1: mode 'free' has both a rate and a force for 'u'; keep one of the two");
+    expect(
+        corner + "\n[friction.rub]\nvelocity = \"u\"\nnormal = 1\ncoefficient = 1\n",
+        "m.toml:23:2: a model with contacts cannot have slides or frictions; give friction to contacts, or write the "
+        "modes out");
     expect(
         with(corner, "gap = \"x\"", "gap = \"2*y\""),
         "m.toml:20:11: the contacts 'floor', 'wall' are redundant: the velocity of one gap follows from the others, so "
