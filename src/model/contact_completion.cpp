@@ -209,7 +209,7 @@ private:
         if (written_.contains({made.mode, made.event}))
             return;
         if (one_of_many)
-            made.label += words.empty() ? ":none" : ":" + words.substr(1);
+            made.label += ":" + case_name(variant, closing, words);
         made.label = unused_label(made.label);
         for (std::size_t k = 1; k < closing.size(); ++k)
             made.also.push_back(modes_.gap_event(closing[k]));
@@ -224,6 +224,15 @@ private:
         made.paradox = has_friction();
         add_rest(made, base, variant, closing, impact);
         model_.transitions.push_back(std::move(made));
+    }
+
+    /// Names one of the cases of an impact by the contacts that take impulses, or by what the only one does.
+    std::string case_name(const ContactVariant& variant, const std::vector<std::size_t>& closing,
+                          const std::string& words) const {
+        const std::string only = "-" + contact_name(closing.front()) + "-";
+        const bool alone = closing.size() == 1 && std::ranges::count(variant.states, ContactState::open) ==
+                                                      static_cast<std::ptrdiff_t>(variant.states.size());
+        return words.empty() ? "none" : words.substr(alone && words.starts_with(only) ? only.size() : 1);
     }
 
     /// Adds where accumulating impacts lead: the contacts are closed.
