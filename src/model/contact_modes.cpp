@@ -75,6 +75,7 @@ std::vector<std::string> names_of_contact_modes(const Model& model, const Places
 
 ContactModes::ContactModes(Model& model, const Places& places)
     : model_(model), places_(places), expander_(model), motion_(model, expander_), bases_(modes_with_contacts(model)) {
+    motion_.allow_parameters();
     for (const std::size_t base : bases_)
         mechanics_.emplace(base, std::make_unique<ContactMechanics>(model, places, motion_, base));
     add_events();
