@@ -56,7 +56,8 @@ class Model(Fixed):
     transitions: a list of `Transition`s. sections, symmetries, quantities: dicts from names to `Section`, `Symmetry`,
         `Quantity`, or to a function or expression.
     slides, friction: dicts from names to `Slide`s and `Friction`s, of which sliding modes and modes for stick and slip
-        are made. contacts: `Contacts`, of which events, jumps and modes of closed contacts are made.
+        are made.
+    contacts: `Contacts`, of which events, jumps and modes of closed contacts are made.
     drawing: what a page shows of a motion, a dict: {"x": (-2, 2), "y": (-1, 1), "shapes": [{"kind": "box", "at": (x, 0),
         "size": (1, 0.5)}, ...]}.
     initial_mode: the mode in which the motion starts; the first one by default.
