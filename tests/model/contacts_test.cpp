@@ -155,8 +155,12 @@ TEST(ContactDeclarations, OfModelsBuiltInCodeAreChecked) {
     const auto expect = [&](const std::function<void(Model&)>& change, const std::string& message) {
         Model bad = good;
         change(bad);
-        EXPECT_NE(message_of([&] { bad.complete(); }).find(message), std::string::npos)
-            << message_of([&] { bad.complete(); });
+        const std::string told = message_of([&] {
+            bad.complete();
+            bad.validate();
+        });
+        EXPECT_NE(told.find(message), std::string::npos) << message << " in " << told;
+        EXPECT_FALSE(told.empty());
     };
     expect([](Model& one) { one.contact_settings.velocities.clear(); }, "contacts change no velocity");
     expect([](Model& one) { one.contact_settings.velocities = {0, 99}; }, "contacts.velocities");
@@ -193,16 +197,16 @@ TEST(ContactDeclarations, TellMistakes) {
            "m.toml:18:12: the law of Poisson is for contacts without friction, and 'floor' has friction; use law = "
            "\"newton\" or \"moreau\", or leave the friction out");
     expect(with(corner, "velocities = [\"u\", \"v\"]", "velocities = [\"u\", \"u\"]"),
-           "m.toml:13:14: a velocity is named twice; remove one of the two");
+           "m.toml:13:1: a velocity is named twice; remove one of the two");
     expect(with(corner, "[modes.free]\n", "[modes.free]\nforces = { u = 1 }\n"),
-           "m.toml:9:1: the forces of mode 'free' are not those on the velocities of [contacts]; give one for each of "
+           "m.toml:10:1: the forces of mode 'free' are not those on the velocities of [contacts]; give one for each of "
            "these "
            "velocities, or the rates instead");
     expect(with(corner, "[modes.free]\n", "[modes.free]\nforces = { u = 1, v = 2 }\n"),
-           "m.toml:9:1: mode 'free' has both a rate and a force for 'u'; keep one of the two");
+           "m.toml:10:1: mode 'free' has both a rate and a force for 'u'; keep one of the two");
     expect(
         corner + "\n[friction.rub]\nvelocity = \"u\"\nnormal = 1\ncoefficient = 1\n",
-        "m.toml:23:2: a model with contacts cannot have slides or frictions; give friction to contacts, or write the "
+        "m.toml:24:2: a model with contacts cannot have slides or frictions; give friction to contacts, or write the "
         "modes out");
     expect(
         with(corner, "gap = \"x\"", "gap = \"2*y\""),
