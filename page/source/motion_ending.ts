@@ -11,6 +11,7 @@ const endings: Record<string, string> = {
   "no-separation": "after its jump the barrier is still approached",
   "no-progress": "too many events happen at one time",
   "two-fold": "sliding ends towards both sides at once",
+  painleve: "contact forces with friction are not determined",
   "step-limit": "it takes too many steps",
 };
 

@@ -22,8 +22,8 @@ from ._grazing import CycleMap, Grazing, MapMotion
 from ._identification import Identification, Record
 from ._layout import ComparedDevice, Layout, LumpedModel, layout, mask_layers
 from ._model import Finding, Model, load, models
-from ._model_parts import (Conserved, Definition, Event, Friction, Jump, Mode, Parameter, Quantity, Section, Slide,
-                           State, Symmetry, Transition, parameters, states)
+from ._model_parts import (Conserved, Contact, Contacts, Definition, Event, Friction, Jump, Mode, Parameter, Quantity,
+                           Section, Slide, State, Symmetry, Transition, parameters, states)
 from ._model_values import Initial, Parameters
 from ._motion import Motion
 from ._plot import Figure
@@ -42,7 +42,8 @@ __version__ = _graze.version
 
 __all__ = [
     "Acquisition", "Basin", "Bench", "BenchService", "Branch", "Certificate", "Chatter", "ComparedDevice",
-    "Condition", "Conserved", "Curve", "CycleMap", "Definition", "Design", "Ensemble", "Equilibria", "Error", "Estimate",
+    "Condition", "Conserved", "Contact", "Contacts", "Curve", "CycleMap", "Definition", "Design", "Ensemble", "Equilibria",
+    "Error", "Estimate",
     "Estimates", "Event", "Experiment", "Expression", "Figure", "FileError", "Finding", "Friction", "Grazing",
     "HarmonicFit", "Identification", "Initial", "InputError", "InstrumentError", "InternalError", "Interrupted",
     "Jump", "Ladder", "Layout", "LocatedSolution", "LumpedModel", "MapMotion", "MeasuredRecord", "MeasuredRecords",

@@ -57,6 +57,7 @@ class Model(Fixed):
         `Symmetry`, `Quantity`, `Conserved`, or to a function or expression.
     slides, friction: dicts from names to `Slide`s and `Friction`s, of which sliding modes and modes for stick and slip
         are made.
+    contacts: `Contacts`, of which events, jumps and modes of closed contacts are made.
     drawing: what a page shows of a motion, a dict: {"x": (-2, 2), "y": (-1, 1), "shapes": [{"kind": "box", "at": (x, 0),
         "size": (1, 0.5)}, ...]}.
     initial_mode: the mode in which the motion starts; the first one by default.
@@ -68,13 +69,15 @@ class Model(Fixed):
     def __init__(self, name: Optional[str] = None, *, text: Optional[str] = None, file: Any = None, source: Any = None,
                  time_unit: Any = None, states: Any = None, parameters: Any = None, definitions: Any = None,
                  rates: Any = None, watch: Any = None, modes: Any = None, events: Any = None, jumps: Any = None,
-                 transitions: Any = None, slides: Any = None, friction: Any = None, sections: Any = None,
-                 symmetries: Any = None, quantities: Any = None, conserved: Any = None, drawing: Any = None,
+                 transitions: Any = None, slides: Any = None, friction: Any = None, contacts: Any = None,
+                 sections: Any = None, symmetries: Any = None, quantities: Any = None, conserved: Any = None,
+                 drawing: Any = None,
                  initial_mode: Any = None, **values: Any) -> None:
         parts = {"source": source, "time_unit": time_unit, "states": states, "parameters": parameters,
                  "definitions": definitions, "rates": rates, "watch": watch, "modes": modes, "events": events,
                  "jumps": jumps, "transitions": transitions, "slides": slides, "friction": friction,
-                 "sections": sections, "symmetries": symmetries, "quantities": quantities, "conserved": conserved,
+                 "contacts": contacts, "sections": sections, "symmetries": symmetries, "quantities": quantities,
+                 "conserved": conserved,
                  "drawing": drawing, "initial_mode": initial_mode}
         if rates is not None or modes is not None:
             if file is not None:

@@ -41,6 +41,15 @@ class ModelLines:
     def name(self, key: str, value: Any, label: str) -> None:
         self.add(f"{toml_key(key)} = {toml_text(key_of(value, label))}", label)
 
+    def matrix(self, key: str, values: List[Any], label: str) -> None:
+        """Writes a list of expressions, or of lists of them."""
+        def row(entries: Any, name: str) -> str:
+            return ", ".join(expression_text(one, f"{name}[{place}]") for place, one in enumerate(entries))
+
+        rows = [f"[{row(one, f'{label}[{place}]')}]" if isinstance(one, (list, tuple)) else row([one], label)
+                for place, one in enumerate(values)]
+        self.add(f"{toml_key(key)} = [{', '.join(rows)}]", label)
+
 
 def expression_text(value: Any, label: str) -> str:
     """An expression or number as a value of TOML."""

@@ -225,6 +225,38 @@ class Friction(Part):
         self.static, self.text = static, text
 
 
+class Contact(Part):
+    """Two bodies that cannot penetrate each other: an event, jumps, and modes in which the contact is closed are made.
+
+    gap: their distance, positive while the contact is open. restitution: of the law of impact. friction: its
+    coefficient, and slip: the velocity of the bodies along each other. text: what it is.
+    """
+
+    _what = "a contact"
+
+    def __init__(self, gap: Any, restitution: Any, *, friction: Any = None, slip: Any = None, text: str = "") -> None:
+        self.gap, self.restitution = gap, restitution
+        self.friction, self.slip, self.text = friction, slip, text
+
+
+class Contacts(Part):
+    """The contacts of a model: `contacts` is a dict from names to `Contact`s.
+
+    mass: a dict from the states that impulses change to their masses; or the mass matrix, a list of rows, with
+    velocities, the list of these states. law: "newton" (the default), "moreau", "poisson" or "sequence". modes: the
+    names of the modes in which the contacts exist; by default all.
+
+    >>> x, v = states(x=1, v=0)
+    >>> ball = Model("ball", rates={x: v, v: -9.81}, contacts=Contacts({"floor": Contact(x, 0.8)}, mass={v: 1}))
+    """
+
+    _what = "contacts"
+
+    def __init__(self, contacts: Any, mass: Any, *, velocities: Any = None, law: Any = None, modes: Any = None) -> None:
+        self.contacts, self.mass, self.velocities = contacts, mass, velocities
+        self.law, self.modes = law, modes
+
+
 class Section(Part):
     """A surface at which states are recorded: a zero of `function`, passed in the `direction` "falling", "rising" or
     "both" (the default); or where the cyclic `state` passes `value`. text: what the section is."""

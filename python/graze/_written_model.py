@@ -14,8 +14,8 @@ from ._keywords import toml_text
 from ._model_arguments import a_dict, a_list, key_of, mistake, part_of
 from ._model_drawing import write_drawing
 from ._model_lines import ModelLines
-from ._model_parts import (Conserved, Definition, Event, Friction, Jump, Mode, Parameter, Quantity, Section, Slide,
-                           State, Symmetry, Transition)
+from ._model_parts import (Conserved, Contact, Contacts, Definition, Event, Friction, Jump, Mode, Parameter, Quantity,
+                           Section, Slide, State, Symmetry, Transition)
 
 FILE = "model written in Python"
 ONLY_MODE = "motion"
@@ -26,7 +26,8 @@ class WrittenModel:
 
     def __init__(self, name: Any, *, text: Any, source: Any, time_unit: Any, states: Any, parameters: Any,
                  definitions: Any, rates: Any, watch: Any, modes: Any, events: Any, jumps: Any, transitions: Any,
-                 slides: Any, friction: Any, sections: Any, symmetries: Any, quantities: Any, conserved: Any, drawing: Any,
+                 slides: Any, friction: Any, contacts: Any, sections: Any, symmetries: Any, quantities: Any,
+                 conserved: Any, drawing: Any,
                  initial_mode: Any) -> None:
         self._out = ModelLines()
         self._modes = self._read_modes(rates, watch, modes)
@@ -48,6 +49,7 @@ class WrittenModel:
         self._write_transitions(transitions)
         self._write_slides(slides)
         self._write_friction(friction)
+        self._write_contacts(contacts)
         self._write_sections(sections)
         self._write_symmetries(symmetries)
         self._write_quantities(quantities)
@@ -329,6 +331,29 @@ class WrittenModel:
         for name, label, one in self._parts(Friction, "friction", friction, "a dict from names to graze.Friction"):
             self._out.header("friction", name, label=label)
             for key in ("velocity", "normal", "coefficient", "static"):
+                if getattr(one, key) is not None:
+                    self._out.expression(key, getattr(one, key), f"{label}.{key}")
+            self._out.text("text", one.text, label)
+
+    def _write_contacts(self, given: Any) -> None:
+        if given is None:
+            return
+        contacts = part_of(Contacts, given, "contacts")
+        self._out.header("contacts", label="contacts")
+        if contacts.law is not None:
+            self._out.name("law", contacts.law, "contacts.law")
+        mass, velocities = contacts.mass, contacts.velocities
+        if isinstance(mass, Mapping):
+            if velocities is not None:
+                raise mistake("contacts.velocities", "the masses are given for their velocities", "leave velocities out")
+            mass, velocities = list(mass.values()), list(mass)
+        self._names("velocities", [] if velocities is None else velocities, "contacts.velocities")
+        self._out.matrix("mass", a_list(mass, "contacts.mass"), "contacts.mass")
+        if contacts.modes is not None:
+            self._names("modes", contacts.modes, "contacts.modes")
+        for name, label, one in self._parts(Contact, "contacts", contacts.contacts, "a dict from names to graze.Contact"):
+            self._out.header("contacts", name, label=label)
+            for key in ("gap", "restitution", "friction", "slip"):
                 if getattr(one, key) is not None:
                     self._out.expression(key, getattr(one, key), f"{label}.{key}")
             self._out.text("text", one.text, label)

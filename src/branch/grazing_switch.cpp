@@ -158,14 +158,10 @@ public:
         : simulation_(system, {}, {}, integration(settings.orbit.tolerance)), point_(point), touch_(simulation_, point),
           name_(system.model().events[touch_.event].name) {
         const Model& model = system.model();
-        const Orbit& grazing = point.solution.orbit;
         transition_ = model.find_transition(touch_.mode, touch_.event);
         if (!transition_)
             throw InputError(fmt::format("nothing happens at event '{}'", name_), "no branch leaves there");
-        index_ = static_cast<std::size_t>(transition_ - model.transitions.data());
-        last_ = {touch_.mode, SegmentEnd::event, index_};
-        if (grazing.symmetry)
-            last_ = image_of(system, *grazing.symmetry, last_, grazing);
+        first_ = static_cast<std::size_t>(transition_ - model.transitions.data());
     }
     const Simulation& simulation() const { return simulation_; }
     double greatest_speed() const { return touch_.greatest_speed; }
@@ -175,16 +171,25 @@ public:
     /// it for a whole period
     std::optional<Orbit> with_speed(double speed, bool inserted, std::string& why) const {
         const System& compiled = simulation_.system();
-        std::vector<double> state = touch_.displaced(0, -speed), work(compiled.workspace());
-        if (!compiled.jump(transition_->jump).identity)
-            compiled.jump(transition_->jump).map.evaluate(touch_.inputs(state), state, work);
-        const auto mode = mode_after(compiled, index_, touch_.inputs(state));
+        std::vector<double> state = touch_.displaced(0, -speed), work(compiled.workspace()), conditions;
+        const auto chosen = chosen_transition(compiled, first_, {}, touch_.inputs(state), conditions, work);
+        if (!chosen) {
+            why = "no transition of the contact is possible there";
+            return std::nullopt;
+        }
+        Segment last{touch_.mode, SegmentEnd::event, *chosen};
+        if (const Orbit& grazing = point_.solution.orbit; grazing.symmetry)
+            last = image_of(compiled, *grazing.symmetry, last, grazing);
+        const System::CompiledJump& jump = compiled.jump(compiled.transition(*chosen).jump);
+        if (!jump.identity)
+            jump.map.evaluate(touch_.inputs(state), state, work);
+        const auto mode = mode_after(compiled, *chosen, touch_.inputs(state));
         if (!mode) {
             why = "the motion ends there";
             return std::nullopt;
         }
-        auto orbit = inserted ? with_contact_inserted(simulation_, point_, state, *mode, last_)
-                              : followed_after_contact(simulation_, point_, state, *mode, last_, why);
+        auto orbit = inserted ? with_contact_inserted(simulation_, point_, state, *mode, last)
+                              : followed_after_contact(simulation_, point_, state, *mode, last, why);
         if (orbit)
             join_drifts(simulation_, *orbit);
         return orbit;
@@ -196,8 +201,7 @@ private:
     Touch touch_;
     const std::string& name_;
     const Transition* transition_ = nullptr;
-    std::size_t index_ = 0; ///< index of the transition
-    Segment last_;
+    std::size_t first_ = 0; ///< transition of the touching event
 };
 
 /// True when the determinant of folds or that of flips changes its sign between two orbits of a branch. Neither has a

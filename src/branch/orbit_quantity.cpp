@@ -92,18 +92,26 @@ std::optional<OrbitQuantity> OrbitQuantity::of_guard(const OrbitEquations& equat
         concatenated(at.pieces[equations.layout().last_piece(segment)].end, at.parameters);
     std::optional<Expression> nearest;
     double least = 0;
+    const auto add = [&](const Expression& before) {
+        const double value = std::abs(equations.system().function_of({&before, 1})(inputs)[0]);
+        if (nearest && !(value < least))
+            return;
+        least = value;
+        nearest = before;
+    };
     for (const Alternative& alternative : transition.next)
         for (const auto& condition : alternative.when) {
             // Guards are evaluated in the state after the jump.
             const std::vector<Expression>& map = model.jumps[transition.jump].map;
             const Expression own = model.expand(condition.function);
-            const Expression before = map.empty() ? own : composed(model, own, map);
-            const double value = std::abs(equations.system().function_of({&before, 1})(inputs)[0]);
-            if (nearest && !(value < least))
-                continue;
-            least = value;
-            nearest = before;
+            add(map.empty() ? own : composed(model, own, map));
         }
+    // Conditions of transitions in the state before it.
+    const std::vector<Transition> transitions = model.transitions;
+    for (const Transition& other : transitions)
+        if (other.mode == transition.mode && other.event == transition.event && other.also == transition.also)
+            for (const Condition& condition : other.when)
+                add(model.expand(condition.function));
     if (!nearest)
         return std::nullopt;
     return OrbitQuantity(equations, {Monitor::Kind::value, *nearest, segment, 0, {}});

@@ -170,7 +170,10 @@ private:
         for (std::size_t w = 0; w < values.size(); ++w) {
             if (model_.events[mode.watched[w]].kind != EventKind::barrier || !(values[w] < 0))
                 continue;
-            const std::size_t transition = mode.transitions[w];
+            const auto chosen = chosen_transition(system_, mode.transitions[w], {}, inputs, conditions, work);
+            if (!chosen)
+                return false;
+            const std::size_t transition = *chosen;
             system_.jump(system_.transition(transition).jump).map.evaluate(inputs, motion.state, work);
             std::ranges::copy(motion.state, inputs.begin());
             const System::CompiledAlternative* next = chosen_alternative(system_, transition, inputs, conditions, work);

@@ -359,9 +359,26 @@ void SystemCompiler::compile_maps(System::Parts& parts) {
 }
 
 void SystemCompiler::compile_transitions(System::Parts& parts) {
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t> last;
     for (const Transition& transition : model_.transitions) {
         System::CompiledTransition compiled;
         compiled.jump = transition.jump;
+        compiled.also = transition.also;
+        std::ranges::sort(compiled.also);
+        std::vector<Expression> before;
+        for (const Condition& condition : transition.when) {
+            before.push_back(condition.function);
+            compiled.strict.push_back(condition.strict);
+        }
+        compiled.when = function_of(before);
+        const auto [known, added] =
+            last.emplace(std::pair(transition.mode, transition.event), parts.transitions.size());
+        if (!added) {
+            System::CompiledTransition& previous = parts.transitions[known->second];
+            previous.following = parts.transitions.size();
+            previous.one_of_many = compiled.one_of_many = true;
+            known->second = parts.transitions.size();
+        }
         for (const Alternative& alternative : transition.next) {
             std::vector<Expression> conditions;
             System::CompiledAlternative way;

@@ -96,6 +96,10 @@ private:
     bool contact(std::size_t event) {
         const Transition* transition = model_.find_transition(mode_, event);
         const auto which = static_cast<std::size_t>(transition - model_.transitions.data());
+        if (system_.transition(which).following)
+            return set_reason(fmt::format("the law of impact has several cases at event '{}', which are not told apart "
+                                          "at zero speed",
+                                          model_.events[event].name));
         chain_.contacts.push_back(which);
         const System::CompiledJump& jump = system_.jump(transition->jump);
         if (!jump.identity && !pass(jump, transition->jump))

@@ -85,7 +85,7 @@ private:
             for (const std::size_t event : mode.watched)
                 watched[event] = true;
         for (std::size_t i = 0; i < watched.size(); ++i)
-            if (!watched[i])
+            if (!watched[i] && !model_.events[i].derived)
                 warn("no mode watches the event '{}'", model_.events[i].name);
     }
 
@@ -131,7 +131,7 @@ private:
                 used[transition.chatter->jump] = true;
         }
         for (std::size_t i = 1; i < used.size(); ++i)
-            if (!used[i])
+            if (!used[i] && !model_.jumps[i].derived)
                 warn("no transition uses the jump '{}'", model_.jumps[i].name);
     }
 

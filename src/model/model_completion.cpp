@@ -2,6 +2,7 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/symbolic/transform.hpp"
+#include "model/contact_modes.hpp"
 #include "model/model_expressions.hpp"
 #include "model/model_validate.hpp"
 
@@ -51,7 +52,11 @@ bool same_transition(const Transition& one, const Transition& other) {
     const bool chatter =
         one.chatter.has_value() == other.chatter.has_value() &&
         (!one.chatter || (one.chatter->jump == other.chatter->jump && one.chatter->mode == other.chatter->mode));
-    return chatter && one.label == other.label && one.mode == other.mode && one.event == other.event &&
+    const bool same_case =
+        one.also == other.also && std::ranges::equal(one.when, other.when, [](const Condition& a, const Condition& b) {
+            return a.strict == b.strict && same_expression(a.function, b.function);
+        });
+    return chatter && same_case && one.label == other.label && one.mode == other.mode && one.event == other.event &&
            one.jump == other.jump && std::ranges::equal(one.next, other.next, same_conditions);
 }
 
@@ -208,6 +213,10 @@ void name_derived_modes(Model& model, const Places& places) {
     }
     for (const Slide& slide : model.slides)
         add("slides." + slide.name, slide.name);
+    if (!model.contacts.empty())
+        for (const std::size_t base : modes_with_contacts(model))
+            for (const std::string& name : names_of_contact_modes(model, places, base))
+                add("contacts", name);
 }
 
 void choose_initial_mode(Model& model) {
@@ -236,14 +245,16 @@ void choose_initial_mode(Model& model) {
 }
 
 void complete_model(Model& model, const Places& places) {
-    if (model.declared || (model.slides.empty() && model.frictions.empty()))
+    if (model.declared || (model.slides.empty() && model.frictions.empty() && model.contacts.empty()))
         return;
     Model made = model; // the given one stays as it is if this fails
     validate_declarations(made, places);
+    check_contacts(made, places);
     name_derived_modes(made, places);
     made.declared = std::make_shared<const DeclaredParts>(parts_to_keep(made));
     complete_frictions(made, places, rubbing_modes(made));
     complete_slides(made, places);
+    complete_contacts(made, places);
     choose_initial_mode(made);
     model = std::move(made);
 }

@@ -15,7 +15,7 @@ namespace graze {
 
 /// Model::complete, with places in the model file.
 void complete_model(Model& model, const Places& places);
-/// Appends, without rates, the modes that slides and frictions make, so that other parts may name them.
+/// Appends, without rates, the modes that slides, frictions and contacts make, so that other parts may name them.
 /// @throws InputError when a name is taken
 void name_derived_modes(Model& model, const Places& places);
 /// Returns the model as it was declared, with the present values. Its derived modes have no rates.
@@ -36,6 +36,10 @@ std::vector<RubbingMode> rubbing_modes(const Model& model);
 inline constexpr std::array<std::string_view, 3> friction_words{"backward", "stick", "forward"};
 /// Completes frictions: replaces the modes that contain them.
 void complete_frictions(Model& model, const Places& places, const std::vector<RubbingMode>& rubbing);
+/// Checks declarations of contacts on which all that is made of them relies. @throws InputError
+void check_contacts(const Model& model, const Places& places);
+/// Completes contacts: events, jumps, modes of closed contacts.
+void complete_contacts(Model& model, const Places& places);
 /// Completes slides.
 void complete_slides(Model& model, const Places& places);
 

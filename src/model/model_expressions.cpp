@@ -75,11 +75,14 @@ void walk(AnyModel& model, const Visit& visit, const VisitMap& visit_map) {
         visit(event.function, Role::general, [&] { return "events." + event.name + ".function"; });
     for (auto& jump : model.jumps)
         visit_map(jump.map, [&](std::size_t state) { return "jumps." + jump.name + "." + model.states[state].name; });
-    for (std::size_t i = 0; i < model.transitions.size(); ++i)
+    for (std::size_t i = 0; i < model.transitions.size(); ++i) {
+        for (auto& condition : model.transitions[i].when)
+            visit(condition.function, Role::general, [&] { return fmt::format("transitions.{}.when", i + 1); });
         for (std::size_t k = 0; k < model.transitions[i].next.size(); ++k)
             for (auto& condition : model.transitions[i].next[k].when)
                 visit(condition.function, Role::general,
                       [&] { return fmt::format("transitions.{}.next.{}.when", i + 1, k + 1); });
+    }
     for (auto& section : model.sections) {
         visit(section.function, section.state ? Role::unused : Role::general,
               [&] { return "sections." + section.name + ".function"; });
@@ -95,6 +98,17 @@ void walk(AnyModel& model, const Visit& visit, const VisitMap& visit_map) {
         visit(friction.coefficient, Role::general, [&] { return path("coefficient"); });
         if (friction.static_coefficient)
             visit(*friction.static_coefficient, Role::general, [&] { return path("static"); });
+    }
+    for (auto& mass : model.contact_settings.mass)
+        visit(mass, Role::general, [] { return std::string("contacts.mass"); });
+    for (auto& contact : model.contacts) {
+        const auto path = [&](const char* key) { return "contacts." + contact.name + "." + key; };
+        visit(contact.gap, Role::general, [&] { return path("gap"); });
+        visit(contact.restitution, Role::general, [&] { return path("restitution"); });
+        if (contact.friction)
+            visit(*contact.friction, Role::general, [&] { return path("friction"); });
+        if (contact.slip)
+            visit(*contact.slip, Role::general, [&] { return path("slip"); });
     }
     for (auto& alternative : model.initial_modes)
         for (auto& condition : alternative.when)

@@ -5,7 +5,7 @@
 #include "graze/base/text_file.hpp"
 #include "graze/model/conserved.hpp"
 #include "model/model_completion.hpp"
-#include "model/model_file_sliding.hpp"
+#include "model/model_file_contacts.hpp"
 #include "model/model_validate.hpp"
 
 #include <fmt/format.h>
@@ -21,10 +21,10 @@ namespace graze {
 namespace {
 
 /// Reads one model, table by table.
-class ModelReader : private SlidingParts {
+class ModelReader : private ContactParts {
 public:
     ModelReader(std::string_view text, const std::string& file)
-        : SlidingParts(text, file), root_(parse_toml(text, file)) {}
+        : ContactParts(text, file), root_(parse_toml(text, file)) {}
 
     Model read() {
         if (root_.empty())
@@ -56,6 +56,10 @@ public:
         model_.jumps.front().map = identity();
         read("jumps", &ModelReader::read_jumps);
         read("modes", &ModelReader::read_modes);
+        read("contacts", &ModelReader::read_contacts);
+        if (top.contains("contacts"))
+            mistakes_.throw_noted(); // modes are made of what has been read
+        mistakes_.attempt([&] { set_accelerations(); });
         mistakes_.attempt([&] { name_derived_modes(model_, places_); });
         read("slides", &ModelReader::read_slides);
         read("friction", &ModelReader::read_frictions);
@@ -232,9 +236,13 @@ private:
                 for (const TomlEntry& event : reader_.elements(part))
                     mode.watched.push_back(index(event, model_.events, "event"));
             };
-            read_parts(entry, {{"text", text_into(mode.text)}, {"rates", read_rates}, {"watch", read_watch}});
+            const auto of_mode = static_cast<std::size_t>(&mode - model_.modes.data());
+            read_parts(entry, {{"text", text_into(mode.text)},
+                               {"rates", read_rates},
+                               {"forces", [&](const TomlEntry& part) { read_forces(of_mode, part); }},
+                               {"watch", read_watch}});
             for (std::size_t i = 0; i < mode.rates.size(); ++i)
-                if (const std::string& state = model_.states[i].name; mode.rates[i].empty())
+                if (const std::string& state = model_.states[i].name; mode.rates[i].empty() && !has_force(of_mode, i))
                     throw InputError(
                         rates, fmt::format("mode '{}' has no rate for the state '{}'", mode.name, state),
                         fmt::format("add {} = \"...\" to the rates; 0 for a state that does not move", state));
@@ -247,9 +255,19 @@ private:
                 places_.set(entry.path, entry.place);
                 Transition transition;
                 std::optional<std::size_t> mode, event;
+                const auto read_also = [&](const TomlEntry& part) {
+                    for (const TomlEntry& other : reader_.elements(part))
+                        transition.also.push_back(index(other, model_.events, "event"));
+                };
+                const auto read_when = [&](const TomlEntry& part) {
+                    transition.when_text = reader_.string(part);
+                    transition.when = conditions(part);
+                };
                 read_parts(entry,
                            {{"mode", index_into(mode, model_.modes, "mode")},
                             {"event", index_into(event, model_.events, "event")},
+                            {"also", read_also},
+                            {"when", read_when},
                             {"label", line_into(transition.label)},
                             {"jump", index_into(transition.jump, model_.jumps, "jump")},
                             {"next", [&](const TomlEntry& part) { transition.next = read_next(part); }},
@@ -399,10 +417,10 @@ private:
 } // namespace
 
 const std::vector<std::string>& model_keys() {
-    static const std::vector<std::string> keys{"name",        "text",        "source",   "time_unit", "parameters",
-                                               "states",      "definitions", "modes",    "events",    "jumps",
-                                               "transitions", "slides",      "friction", "sections",  "symmetries",
-                                               "quantities",  "conserved",   "drawing",  "initial"};
+    static const std::vector<std::string> keys{"name",        "text",        "source",    "time_unit", "parameters",
+                                               "states",      "definitions", "modes",     "events",    "jumps",
+                                               "transitions", "slides",      "friction",  "contacts",  "sections",
+                                               "symmetries",  "quantities",  "conserved", "drawing",   "initial"};
     return keys;
 }
 

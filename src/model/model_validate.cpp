@@ -90,8 +90,8 @@ public:
     }
 
     void run() const {
-        if (!model_.declared && !(model_.slides.empty() && model_.frictions.empty()))
-            fail("slides", "the model has slides or frictions whose modes have not been made",
+        if (!model_.declared && !(model_.slides.empty() && model_.frictions.empty() && model_.contacts.empty()))
+            fail("slides", "the model has slides, frictions or contacts whose modes have not been made",
                  "call Model::complete when all parts are there");
         if (model_.states.empty())
             fail("states", "the model has no states", "give at least one state, with its initial value, in [states]");
@@ -104,9 +104,9 @@ public:
         check_expressions();
         check_circles();
         Mistakes mistakes; // transitions and sections are checked independently
-        std::set<std::pair<std::size_t, std::size_t>> with_transition;
+        std::set<std::pair<std::size_t, std::size_t>> with_transition, always;
         for (std::size_t i = 0; i < model_.transitions.size(); ++i)
-            mistakes.attempt([&] { check_transition(i, with_transition); });
+            mistakes.attempt([&] { check_transition(i, with_transition, always); });
         for (const Mode& mode : model_.modes) {
             std::set<std::size_t> watched;
             for (std::size_t i = 0; i < mode.watched.size(); ++i)
@@ -207,6 +207,8 @@ private:
             check_index(path + ".mode", transition.mode, model_.modes.size(), "mode");
             check_index(path + ".event", transition.event, model_.events.size(), "event");
             check_index(path + ".jump", transition.jump, model_.jumps.size(), "jump");
+            for (const std::size_t event : transition.also)
+                check_index(path + ".also", event, model_.events.size(), "event");
             for (const Alternative& alternative : transition.next)
                 check_index(path + ".next", alternative.mode.value_or(0), model_.modes.size(), "mode");
             if (transition.chatter) {
@@ -222,6 +224,10 @@ private:
             for (const std::size_t event : slide.watched.value_or(std::vector<std::size_t>{}))
                 check_index(path + ".watch", event, model_.events.size(), "event");
         }
+        for (const std::size_t state : model_.contact_settings.velocities)
+            check_index("contacts.velocities", state, model_.states.size(), "state");
+        for (const std::size_t mode : model_.contact_settings.modes.value_or(std::vector<std::size_t>{}))
+            check_index("contacts.modes", mode, model_.modes.size(), "mode");
         for (const Section& section : model_.sections)
             check_index("sections." + section.name + ".state", section.state.value_or(0), model_.states.size(),
                         "state");
@@ -314,14 +320,20 @@ private:
     }
 
     /// @param with_transition pairs (mode, event) of the earlier transitions
-    void check_transition(std::size_t index, std::set<std::pair<std::size_t, std::size_t>>& with_transition) const {
+    /// @param always those of which one has no conditions
+    void check_transition(std::size_t index, std::set<std::pair<std::size_t, std::size_t>>& with_transition,
+                          std::set<std::pair<std::size_t, std::size_t>>& always) const {
         const Transition& transition = model_.transitions[index];
         const std::string path = fmt::format("transitions.{}", index + 1);
-        if (!with_transition.emplace(transition.mode, transition.event).second)
+        const std::pair of_pair(transition.mode, transition.event);
+        with_transition.insert(of_pair);
+        if (transition.also.empty() && always.contains(of_pair))
             fail(path,
                  fmt::format("there is a second transition for event '{}' in mode '{}'",
                              model_.events[transition.event].name, model_.modes[transition.mode].name),
                  "write one transition with alternatives: next = [{ when = \"...\", mode = \"...\" }, ...]");
+        if (transition.also.empty() && transition.when.empty())
+            always.insert(of_pair);
         if (transition.next.empty())
             fail(path + ".next", fmt::format("{} does not say what comes next", path),
                  "give next = \"<mode>\", or \"end\"");

@@ -19,6 +19,10 @@ std::string slide_text(const Model& model, const Slide& slide);
 std::vector<std::string> sliding_rates(const Model& model, const Slide& slide);
 /// Returns for example "against v: coefficient 0.3, at rest 0.4, normal force N".
 std::string friction_text(const Friction& friction);
+/// Returns for example "gap y - r, restitution e, friction mu against u".
+std::string contact_text(const UnilateralContact& contact);
+/// Returns what the contacts of a model have in common, such as "newton, impulses on u, v", and remarks on them.
+std::vector<std::string> contact_remarks(const Model& model);
 /// Returns for example "theta = 0", or the function that is zero and the direction of crossing.
 std::string section_text(const Model& model, const Section& section);
 /// Returns the images of the states that a symmetry changes, such as "x -> -x".

@@ -54,6 +54,7 @@ public:
         write_transitions();
         write_slides();
         write_frictions();
+        write_contacts();
         write_sections();
         write_symmetries();
         write_quantities();
@@ -158,18 +159,18 @@ private:
     }
 
     /// Returns the user's text if it still has the meaning of `when`, otherwise a new text.
-    std::string conditions_text(const Alternative& alternative) const {
-        if (!alternative.when_text.empty()) {
+    std::string conditions_text(const std::vector<Condition>& when, const std::string& text) const {
+        if (!text.empty()) {
             try {
-                const std::vector<Condition> read = parse_conditions(*model_.graph, alternative.when_text, scope_);
-                if (read == alternative.when)
-                    return alternative.when_text;
+                const std::vector<Condition> read = parse_conditions(*model_.graph, text, scope_);
+                if (read == when)
+                    return text;
             } catch (const InputError&) {
                 // The text of a model built from C++ may be a description instead of conditions.
             }
         }
         std::vector<std::string> parts;
-        for (const Condition& condition : alternative.when)
+        for (const Condition& condition : when)
             parts.push_back(fmt::format("{} {} 0", to_string(condition.function), condition.strict ? ">" : ">="));
         return fmt::format("{}", fmt::join(parts, " and "));
     }
@@ -180,6 +181,10 @@ private:
             line("\n[[transitions]]");
             line("mode = {}", toml_string(mode_name(transition.mode)));
             line("event = {}", toml_string(event));
+            if (!transition.also.empty())
+                line("also = {}", events(transition.also));
+            if (!transition.when.empty())
+                line("when = {}", toml_string(conditions_text(transition.when, transition.when_text)));
             if (transition.label != mode_name(transition.mode) + ":" + event)
                 string("label", transition.label);
             if (transition.jump != 0)
@@ -192,7 +197,10 @@ private:
             } else {
                 line("next = [");
                 for (const Alternative& alternative : transition.next) {
-                    const std::string when = alternative.when.empty() ? "" : toml_string(conditions_text(alternative));
+                    const std::string when =
+                        alternative.when.empty()
+                            ? ""
+                            : toml_string(conditions_text(alternative.when, alternative.when_text));
                     line("    {},", inline_table({{"when", when}, {"mode", next(alternative)}}));
                 }
                 line("]");
@@ -226,6 +234,43 @@ private:
             line("coefficient = {}", value_text(friction.coefficient));
             if (friction.static_coefficient)
                 line("static = {}", value_text(*friction.static_coefficient));
+        }
+    }
+
+    void write_contacts() {
+        if (model_.contacts.empty())
+            return;
+        constexpr std::array laws{"newton", "moreau", "poisson", "sequence"};
+        const ContactSettings& settings = model_.contact_settings;
+        line("\n[contacts]");
+        line("law = {}", toml_string(laws[static_cast<std::size_t>(settings.law)]));
+        std::vector<std::string> velocities, mass, row, modes;
+        for (const std::size_t state : settings.velocities)
+            velocities.push_back(toml_string(model_.states[state].name));
+        line("velocities = [{}]", fmt::join(velocities, ", "));
+        const bool full = settings.mass.size() > velocities.size();
+        for (const Expression& one : settings.mass) {
+            row.push_back(value_text(one));
+            if (row.size() == velocities.size()) {
+                mass.push_back(full ? fmt::format("[{}]", fmt::join(row, ", "))
+                                    : fmt::format("{}", fmt::join(row, ", ")));
+                row.clear();
+            }
+        }
+        line("mass = [{}]", fmt::join(mass, ", "));
+        for (const std::size_t mode : settings.modes.value_or(std::vector<std::size_t>{}))
+            modes.push_back(toml_string(mode_name(mode)));
+        if (settings.modes)
+            line("modes = [{}]", fmt::join(modes, ", "));
+        for (const UnilateralContact& contact : model_.contacts) {
+            line("\n[contacts.{}]", contact.name);
+            string("text", contact.text);
+            line("gap = {}", value_text(contact.gap));
+            line("restitution = {}", value_text(contact.restitution));
+            if (contact.friction)
+                line("friction = {}", value_text(*contact.friction));
+            if (contact.slip)
+                line("slip = {}", value_text(*contact.slip));
         }
     }
 
@@ -337,6 +382,7 @@ std::string written(const Model& model, bool drawing) {
     if (plain.declared) {
         plain.slides.clear();
         plain.frictions.clear();
+        plain.contacts.clear();
     }
     return ModelWriter(plain).write(drawing);
 }

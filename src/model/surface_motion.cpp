@@ -33,9 +33,16 @@ std::optional<SurfaceMotion::Solved> SurfaceMotion::solved(const Expression& fun
     for (const JacobianEntry& slope : sparse_jacobian({&function, 1}, SymbolIndex(states_))) {
         const std::size_t i = slope.column;
         // A cyclic state has many values on a surface.
-        if (!slope.value.is_number() || model_.states[i].period || (found && !preferred[i]))
+        const bool is_constant = slope.value.is_number() || (by_parameters_ && !depends_on_states(slope.value));
+        if (!is_constant || model_.states[i].period || (found && !preferred[i]))
             continue;
         const Expression rest = substitute(function, std::vector<Replacement>{{states_[i], model_.number(0)}});
+        if (!slope.value.is_number()) {
+            found = Solved{i, -rest / slope.value};
+            if (preferred[i])
+                break;
+            continue;
+        }
         const double coefficient = slope.value.node().value;
         found = Solved{i, coefficient == 1 ? -rest : coefficient == -1 ? rest : rest / model_.number(-coefficient)};
         if (preferred[i])

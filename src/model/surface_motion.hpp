@@ -38,6 +38,8 @@ public:
     std::optional<Solved> solved(const Expression& function, const std::vector<bool>& preferred) const;
     /// Adds a surface to those by which states have been replaced; nothing if no state follows from the others.
     void add_surface(const Expression& function, const std::vector<bool>& preferred);
+    /// Also solves for states whose coefficients are expressions in parameters, which must not become zero.
+    void allow_parameters() { by_parameters_ = true; }
     /// Forgets all surfaces.
     void leave_surfaces() { replaced_.clear(); }
     /// Replaces states by their values on the surfaces.
@@ -55,6 +57,7 @@ private:
     Expander& expander_;
     std::vector<Expression> states_;
     std::vector<Solved> replaced_;
+    bool by_parameters_ = false; ///< see allow_parameters
 };
 
 } // namespace graze

@@ -216,6 +216,28 @@ double guard_margin(const System::CompiledTransition& transition, std::size_t ne
     return best;
 }
 
+/// Returns the margin by which conditions before the jump choose a transition of an event: negative when they do not.
+/// @param first transition of the mode and event
+double choice_margin(const System& system, std::size_t first, std::size_t chosen, std::span<const double> inputs,
+                     std::span<double> work) {
+    double before = infinity;
+    std::vector<double> values;
+    for (std::optional<std::size_t> next = first; next; next = system.transition(*next).following) {
+        const auto& one = system.transition(*next);
+        if (one.also != system.transition(chosen).also)
+            continue;
+        values.resize(one.when.outputs());
+        one.when.evaluate(inputs, values, work);
+        double margin = infinity;
+        for (const double value : values)
+            margin = std::min(margin, value);
+        if (*next == chosen)
+            return std::min(before, margin);
+        before = std::min(before, -margin);
+    }
+    return before;
+}
+
 /// Checks an orbit segment by segment.
 class Certifier {
 public:
@@ -362,12 +384,17 @@ private:
         // Guards of a half orbit's last jump act on the state before the symmetry is applied.
         std::vector<double> after = at_->pieces[equations_->layout().last_piece(s)].end;
         set_state(after);
+        const auto& mode = system_->mode(segment.mode);
+        const auto own = static_cast<std::size_t>(
+            std::ranges::find(mode.watched, equations_->model().transitions[segment.index].event) -
+            mode.watched.begin());
+        const double chosen = choice_margin(*system_, mode.transitions[own], segment.index, inputs_, work_);
         const auto& jump = system_->jump(equations_->model().transitions[segment.index].jump);
         if (!jump.identity)
             jump.map.evaluate(inputs_, after, work_);
         set_state(after);
         const std::size_t next = mode_after(s);
-        const double margin = guard_margin(system_->transition(segment.index), next, inputs_, work_);
+        const double margin = std::min(chosen, guard_margin(system_->transition(segment.index), next, inputs_, work_));
         certificate_.guard_margins.push_back(margin);
         // Guards after a contact at zero speed may depend on round-off alone.
         const bool decided_by_round_off =
@@ -375,11 +402,9 @@ private:
         if (margin < 0 && !decided_by_round_off)
             reject(fmt::format("the guard after segment {} leads to another mode", s + 1));
         system_->mode(next).rates.evaluate(inputs_, field_, work_);
-        const auto& mode = system_->mode(segment.mode);
-        const auto own = std::ranges::find(mode.transitions, segment.index);
         evaluate_gradients(mode);
-        certificate_.departures.push_back(rate_of(static_cast<std::size_t>(own - mode.transitions.begin()),
-                                                  Eigen::Map<const Eigen::VectorXd>(field_.data(), index(states_))));
+        certificate_.departures.push_back(
+            rate_of(own, Eigen::Map<const Eigen::VectorXd>(field_.data(), index(states_))));
     }
 
     /// Returns the mode after a segment; for the last one of a half orbit, the mode before the symmetry is applied.

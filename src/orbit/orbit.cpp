@@ -57,6 +57,25 @@ bool is_image(const Function& own, const Function& other, const Function& map, c
     return difference <= 1e-9 * size;
 }
 
+/// True when the jump of one transition is the image of that of another, judged at states of an orbit: of several
+/// transitions of an event, they are the same case.
+bool has_image_jump(const System& system, std::size_t symmetry, std::size_t own, std::size_t other,
+                    const Orbit& orbit) {
+    const Function& map = system.symmetry(symmetry).map;
+    const auto jumped = [&](std::size_t transition, const std::vector<double>& state) {
+        const System::CompiledJump& jump = system.jump(system.transition(transition).jump);
+        return jump.identity ? state : jump.map(concatenated(state, orbit.parameters));
+    };
+    for (const std::vector<double>& start : orbit.starts) {
+        const std::vector<double> one = map(concatenated(jumped(own, start), orbit.parameters)),
+                                  two = jumped(other, map(concatenated(start, orbit.parameters)));
+        for (std::size_t i = 0; i < one.size(); ++i)
+            if (!(std::abs(one[i] - two[i]) <= 1e-9 * (std::abs(one[i]) + std::abs(start[i]))))
+                return false;
+    }
+    return true;
+}
+
 /// Returns, in the image mode, the transition whose event function is the image of the given transition's.
 std::size_t image_of_transition(const System& system, std::size_t symmetry, std::size_t mode, std::size_t transition,
                                 const Orbit& orbit) {
@@ -67,7 +86,9 @@ std::size_t image_of_transition(const System& system, std::size_t symmetry, std:
         for (std::size_t candidate = 0; candidate < model.transitions.size(); ++candidate)
             if (model.transitions[candidate].mode == mode &&
                 is_image(own, system.event(model.transitions[candidate].event), system.symmetry(symmetry).map, orbit,
-                         periods, turns))
+                         periods, turns) &&
+                (!system.transition(transition).one_of_many ||
+                 has_image_jump(system, symmetry, transition, candidate, orbit)))
                 return candidate;
     throw InputError(
         fmt::format("the symmetry does not take transition '{}' to any other", model.transitions[transition].label),

@@ -49,7 +49,7 @@ std::vector<ModelWarning> motion_warnings(const System& system) {
     const Outcome& outcome = trajectory.outcome();
     const bool wrong = outcome.ending == Ending::inadmissible || outcome.ending == Ending::no_separation ||
                        outcome.ending == Ending::no_progress || outcome.ending == Ending::no_transition ||
-                       outcome.ending == Ending::two_fold;
+                       outcome.ending == Ending::two_fold || outcome.ending == Ending::painleve;
     // An inadmissible initial state already has a warning of located_warnings.
     if (!wrong || (outcome.time == 0 && outcome.detail.find("is already violated") != std::string::npos))
         return {};

@@ -95,6 +95,11 @@ std::string model_listing(const Model& model) {
     listing.heading(model.frictions.size(), "friction", "frictions");
     for (const Friction& item : model.frictions)
         listing.row({item.name, friction_text(item), item.text});
+    listing.heading(model.contacts.size(), "contact", "contacts");
+    for (const UnilateralContact& item : model.contacts)
+        listing.row({item.name, contact_text(item), item.text});
+    for (const std::string& remark : contact_remarks(model))
+        listing.row({"", remark});
     listing.heading(model.sections.size(), "section", "sections");
     for (const Section& item : model.sections)
         listing.row({item.name, section_text(model, item), item.text});

@@ -43,6 +43,10 @@ Table model_table(const Model& model) {
     }
     for (const Friction& item : model.frictions)
         table.add("friction", item.name, friction_text(item), "", item.text);
+    for (const UnilateralContact& item : model.contacts)
+        table.add("contact", item.name, contact_text(item), "", item.text);
+    for (const std::string& remark : contact_remarks(model))
+        table.add("remark on contacts", "", remark, "", "");
     for (const Section& item : model.sections)
         table.add("section", item.name, section_text(model, item), "", item.text);
     for (const Symmetry& item : model.symmetries) {

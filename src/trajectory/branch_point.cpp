@@ -285,6 +285,8 @@ void Trajectory::finish_singular() {
     }
     if (ends_at_two_fold())
         return finish_at_two_fold(std::min(time_ + radius, end_time_));
+    if (finish_at_paradox(std::min(time_ + radius, end_time_)))
+        return;
     finish(Ending::singular, std::min(time_ + radius, end_time_));
 }
 

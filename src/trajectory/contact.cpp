@@ -4,6 +4,7 @@
 
 #include "flow/guard.hpp"
 #include "trajectory/probe_tracker.hpp"
+#include "trajectory/series.hpp"
 #include "trajectory/tangents.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +17,6 @@ namespace graze {
 void Trajectory::make_contact(std::size_t w, double s) {
     const auto& mode = *compiled_mode_;
     const std::size_t event = mode.watched[w];
-    const std::size_t transition = mode.transitions[w];
     if (is_two_fold(event, s)) {
         for (std::size_t i = 0; i < states_; ++i)
             state_[i] = evaluate_state(i, s);
@@ -43,8 +43,13 @@ void Trajectory::make_contact(std::size_t w, double s) {
     hold_surfaces(w, s);
     add_time(s);
     remember_contact(event, rate);
-    histories_[event].transition = transition;
     std::copy(before_.begin(), before_.end(), inputs_.begin());
+    if (s == 0 && simulation_.system().transition(mode.transitions[w]).following)
+        add_simultaneous(w);
+    const auto chosen =
+        chosen_transition(simulation_.system(), mode.transitions[w], together_, inputs_, conditions_, work_);
+    const std::size_t transition = chosen.value_or(mode.transitions[w]);
+    histories_[event].transition = transition;
     values_.resize(mode.events.outputs());
     mode.events.evaluate(inputs_, values_, work_);
     // Simultaneous events were on their surfaces when found. Jumps made since may have moved the state away from them.
@@ -60,12 +65,48 @@ void Trajectory::make_contact(std::size_t w, double s) {
     contact.simultaneous = contacts_now_ > 0;
     contact.rate_before = rate;
     pending_ = contact;
+    if (!chosen) {
+        after_ = before_;
+        pending_->transition = transition;
+        pending_->time = time_;
+        pending_->mode_before = pending_->mode_after = mode_;
+        return finish_without_way(transition);
+    }
+    for (const std::size_t other : simulation_.system().transition(transition).also)
+        std::erase(together_, other);
     apply_transition(transition, rate);
+}
+
+/// Adds the events that happen together with one at the start of an arc: on their surfaces, and falling.
+void Trajectory::add_simultaneous(std::size_t first) {
+    const auto& mode = *compiled_mode_;
+    for (std::size_t w = 0; w < mode.watched.size(); ++w) {
+        const auto c = event_series(w);
+        const double near = 1e-12 * series_size(c, std::max(previous_step_, shortest_step()));
+        const bool known = std::ranges::find(together_, mode.watched[w]) != together_.end();
+        if (w != first && !known && std::abs(c[0]) <= near && c[1] < 0)
+            together_.push_back(mode.watched[w]);
+    }
+}
+
+/// Ends at a transition none of whose conditions hold.
+void Trajectory::finish_without_way(std::size_t transition) {
+    const Model& model = simulation_.model();
+    const Transition& definition = model.transitions[transition];
+    hand_over_contact();
+    state_ = after_;
+    if (!definition.otherwise.empty())
+        return finish(definition.paradox ? Ending::painleve : Ending::no_transition, time_,
+                      fmt::format("{}: {}", where(), definition.otherwise));
+    finish(Ending::no_transition, time_,
+           fmt::format("no condition of transition '{}' (mode '{}', event '{}') holds at time {:.15g}: add an "
+                       "alternative without a condition, or one that covers this state",
+                       definition.label, model.modes[definition.mode].name, model.events[definition.event].name,
+                       time_));
 }
 
 /// Makes the transition's jump from `before_` and chooses the next mode.
 void Trajectory::apply_transition(std::size_t transition, double rate) {
-    const Model& model = simulation_.model();
     const auto& compiled = simulation_.system().transition(transition);
     pending_->transition = transition;
     pending_->time = time_;
@@ -77,19 +118,11 @@ void Trajectory::apply_transition(std::size_t transition, double rate) {
     bool ends = false;
     const auto next = next_mode(transition, ends);
     if (!next) {
-        const Transition& definition = model.transitions[transition];
+        if (!ends)
+            return finish_without_way(transition);
         hand_over_contact();
         state_ = after_;
-        if (ends)
-            return finish(Ending::terminal, time_);
-        if (!definition.otherwise.empty())
-            return finish(Ending::no_transition, time_, fmt::format("{}: {}", where(), definition.otherwise));
-        return finish(
-            Ending::no_transition, time_,
-            fmt::format("no condition of transition '{}' (mode '{}', event '{}') holds at time {:.15g}: add an "
-                        "alternative without a condition, or one that covers this state",
-                        definition.label, model.modes[definition.mode].name, model.events[definition.event].name,
-                        time_));
+        return finish(Ending::terminal, time_);
     }
     enter(compiled.jump, *next);
     if (!finished() && contacts_now_ > simulation_.options().contacts_at_once)

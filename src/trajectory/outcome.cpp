@@ -7,7 +7,7 @@ namespace graze {
 std::string_view name_of(Ending ending) {
     constexpr std::string_view names[] = {"running",     "end-time",     "stopped",       "terminal", "singular",
                                           "undefined",   "inadmissible", "no-transition", "chatter",  "no-separation",
-                                          "no-progress", "step-limit",   "two-fold"};
+                                          "no-progress", "step-limit",   "two-fold",      "painleve"};
     return enumerator_name(names, ending, "unknown");
 }
 

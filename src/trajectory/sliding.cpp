@@ -18,7 +18,7 @@ constexpr double start_distance = 1e-6;
 
 /// Both ends of sliding happen at once where the one that has not happened yet has come this close to zero, relative to
 /// its largest value. A motion that runs into a two-fold cannot be resolved closer than about 1e-12.
-constexpr double two_fold_at_event = 1e-9, two_fold_at_end_of_series = 1e-6;
+constexpr double two_fold_at_event = 1e-9, near_end_of_series = 1e-6; // also for other ends at a zero
 
 } // namespace
 
@@ -64,8 +64,8 @@ bool Trajectory::is_two_fold(std::size_t event, double s) {
 /// Returns whether the series end where sliding ends to both sides.
 bool Trajectory::ends_at_two_fold() {
     return std::ranges::any_of(simulation_.model().modes[mode_].slides_on, [&](const SlidingSurface& along) {
-        return is_near_zero(along.exits[0], 0, two_fold_at_end_of_series) &&
-               is_near_zero(along.exits[1], 0, two_fold_at_end_of_series);
+        return along.exits[0] != along.exits[1] && is_near_zero(along.exits[0], 0, near_end_of_series) &&
+               is_near_zero(along.exits[1], 0, near_end_of_series);
     });
 }
 
@@ -86,6 +86,19 @@ void Trajectory::finish_at_two_fold(double time) {
         fmt::format("the motion along the surface of '{}' reaches a two-fold {}: '{}' and '{}' happen at once, and the "
                     "motion beyond is not unique: end it before by an event, or change the parameters",
                     events[along.surface].name, where(), events[along.exits[0]].name, events[along.exits[1]].name));
+}
+
+/// Contact forces with friction grow without bound where the determinant of their equations falls to zero.
+bool Trajectory::finish_at_paradox(double time) {
+    for (std::size_t w = 0; w < compiled_mode_->watched.size(); ++w) {
+        const Transition& only = simulation_.model().transitions[compiled_mode_->transitions[w]];
+        if (only.paradox && only.next.front().when_text == "never" &&
+            is_near_zero(compiled_mode_->watched[w], 0, near_end_of_series)) {
+            finish(Ending::painleve, time, fmt::format("{}: {}", where(), only.otherwise));
+            return true;
+        }
+    }
+    return false;
 }
 
 } // namespace graze

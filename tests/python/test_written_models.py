@@ -317,6 +317,21 @@ def test_a_slide_and_a_friction_make_their_modes():
     assert abs(graze.simulate(block, time=9).end_state["x"] - 2**2/(2*0.6)) < 1e-12
 
 
+def test_contacts_make_their_modes():
+    x, v, y, w = graze.states(x=2, v=-1, y=0.5, w=0)
+    floor = graze.Contact(y, 0.6, friction=0.2, slip=v, text="the ground")
+    ball = graze.Model("ball", rates={x: v, v: 0, y: w, w: -9.81},
+                       contacts=graze.Contacts({"floor": floor, "wall": graze.Contact(x, 0.8)}, mass={v: 1, w: 1}))
+    assert "motion-floor-stick-wall" in ball.modes and graze.Model(text=str(ball)) == ball
+    assert tomllib.loads(str(ball))["contacts"]["velocities"] == ["v", "w"]
+    end = graze.simulate(ball, time=30)
+    assert end.end_state["y"] == 0 and end.end_state["v"] == 0
+    rows = graze.Model("ball", rates={x: v, v: 0, y: w, w: -9.81},
+                       contacts=graze.Contacts({"floor": {"gap": y, "restitution": 0.6}}, mass=[[2, 1], [1, 2]],
+                                               velocities=[v, w], law="poisson"))
+    assert tomllib.loads(str(rows))["contacts"]["mass"] == [[2, 1], [1, 2]]
+
+
 def test_the_texts_of_models_are_kept():
     said = 'two lines\n"quoted" \\ and é'
     model = ball(text=said, source="a book", time_unit="ms")
@@ -330,7 +345,8 @@ def test_parts_are_copied_and_pickled():
              graze.Definition("d", x*v, text="d"), graze.Mode({x: v}, watch=["a"]), graze.Event(x, kind="section"),
              graze.Jump({v: -v}), graze.Transition("a", next=[(x > v, "b")]), graze.Section(state=x, value=0),
              graze.Symmetry({x: -x}), graze.Quantity(x*v, unit="m"), graze.Slide("a", ["m", "n"], watch=[]),
-             graze.Friction(v, 1, 0.3, static=0.4), x > v]
+             graze.Friction(v, 1, 0.3, static=0.4), graze.Contact(x, 0.5, friction=0.3, slip=v),
+             graze.Contacts({"wall": graze.Contact(x, 0.5)}, mass={v: 1}), x > v]
     for part in parts:
         for again in (pickle.loads(pickle.dumps(part)), copy.copy(part), copy.deepcopy(part)):
             assert type(again) is type(part)
@@ -472,6 +488,10 @@ WRONG = {
     "a slide of a wrong convention": (lambda: switched(slides={"s": graze.Slide("contact", ["rest", "flight"],
                                                                                 convention="utkn")}),
                                       "slides['s'].convention: slides.s.convention cannot be 'utkn'"),
+    "contacts without velocities": (lambda: ball(contacts=graze.Contacts({"wall": graze.Contact(v, 1)}, mass=[1])),
+                                    "contacts has no velocities"),
+    "a contact with friction but no slip": (lambda: ball(contacts=graze.Contacts(
+        {"wall": graze.Contact(v, 1, friction=0.2)}, mass={v: 1})), "contacts.wall has no velocity along the surface"),
     "a friction without use": (lambda: ball(friction={"rub": graze.Friction(v, 1, 0.3)}),
                                "friction['rub']: no mode has the friction 'rub' in its rates"),
     "a friction with a wrong field": (lambda: ball(friction={"rub": {"velocity": v, "normal": 1, "coeff": 2}}),

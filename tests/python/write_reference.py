@@ -17,7 +17,8 @@ PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs/python-reference.md"
 GROUPS = {
     "Models": ["Model", "load", "models", "Parameters", "Initial", "Finding"],
     "Parts of models written in Python": ["states", "parameters", "State", "Parameter", "Definition", "Mode", "Event", "Jump",
-                                          "Transition", "Slide", "Friction", "Section", "Symmetry", "Quantity", "Conserved"],
+                                          "Transition", "Slide", "Friction", "Contact", "Contacts", "Section",
+                                          "Symmetry", "Quantity", "Conserved"],
     "Expressions": ["symbols", "expression", "Expression", "Condition", "sqrt", "exp", "log", "sin", "cos", "tan", "asin",
                     "acos", "atan", "sinh", "cosh", "tanh", "erf"],
     "One motion": ["simulate", "Simulation", "Motion"],

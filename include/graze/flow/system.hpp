@@ -85,6 +85,11 @@ public:
     };
     struct CompiledTransition {
         std::size_t jump;
+        Function when; ///< conditions before the jump
+        std::vector<bool> strict;
+        std::vector<std::size_t> also;        ///< events that must happen at the same time, rising
+        std::optional<std::size_t> following; ///< next transition of the same mode and event
+        bool one_of_many = false;             ///< there are several of this mode and event
         std::vector<CompiledAlternative> next;
     };
 

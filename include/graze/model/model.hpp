@@ -4,6 +4,7 @@
 #include "graze/model/parameter_id.hpp"
 #include "graze/model/sliding.hpp"
 #include "graze/model/state_map.hpp"
+#include "graze/model/unilateral_contact.hpp"
 #include "graze/symbolic/expression.hpp"
 #include "graze/symbolic/function.hpp"
 #include "graze/symbolic/parser.hpp"
@@ -86,6 +87,12 @@ struct Transition {
     std::optional<Sticking> chatter{};
     bool derived = false;
     std::string otherwise{}; ///< of a derived one: why the motion ends when no condition holds, and what to do
+    bool paradox = false;    ///< of a derived one: such an end is Painlevé's paradox
+    /// Further events that must happen at the same time. Of the transitions of a mode and event, those of the most
+    /// events at once come first.
+    std::vector<std::size_t> also{};
+    std::vector<Condition> when{}; ///< in the state before the jump: the first transition whose conditions hold is made
+    std::string when_text{};
 };
 
 enum class Direction { falling, rising, both };
@@ -161,11 +168,13 @@ struct ModelItems {
     std::vector<ConservedQuantity> conserved;
     std::vector<Slide> slides;
     std::vector<Friction> frictions;
+    std::vector<UnilateralContact> contacts;
+    ContactSettings contact_settings;
     std::optional<ModelDrawing> drawing;
     std::size_t initial_mode = 0;
     /// If not empty, the initial mode is that of the first whose conditions hold in the initial state.
     std::vector<Alternative> initial_modes;
-    std::shared_ptr<const DeclaredParts> declared; ///< of a completed model with slides or frictions
+    std::shared_ptr<const DeclaredParts> declared; ///< of a completed model with slides, frictions or contacts
 };
 
 /// A hybrid dynamical system, ready to be compiled. Expressions are in terms of the symbols of states, parameters and
@@ -215,7 +224,8 @@ struct Model : ModelItems {
     std::optional<std::size_t> find_quantity(std::string_view item) const { return find_named(quantities, item); }
     /// Returns the unit of the parameter of this name; empty if there is none.
     std::string parameter_unit(std::string_view name) const;
-    /// Null when there is none; valid until transitions are added or removed.
+    /// Returns the first transition of an event in a mode. Null when there is none; valid until transitions are added
+    /// or removed.
     const Transition* find_transition(std::size_t mode, std::size_t event) const;
 
     /// Sets an independent parameter.
@@ -240,8 +250,8 @@ struct Model : ModelItems {
     /// Returns the period of each state at the present parameters; 0 if the state is not cyclic.
     std::vector<double> periods() const;
 
-    /// Makes the modes, events, jumps and transitions that slides and frictions stand for. To be called once, when all
-    /// parts are there; `read_model` does it. Without slides and frictions, or after the first call, nothing changes.
+    /// Makes the modes, events, jumps and transitions that slides, frictions and contacts stand for. To be called once,
+    /// when all parts are there; `read_model` does it. Without these, or after the first call, nothing changes.
     /// @throws InputError for a declaration that cannot be completed
     void complete();
     /// Checks everything on which a compiled model relies: sizes, indices, names, symbols, circular definitions,

@@ -20,6 +20,7 @@ enum class Ending {
     no_progress,   ///< too many events at one time
     step_limit,    ///< more steps than allowed
     two_fold,      ///< sliding ends towards both sides at once: the motion beyond is not unique
+    painleve,      ///< no contact forces with friction are consistent, or several are (Painlevé's paradox)
 };
 
 /// Stable name for tables and files, such as "end-time".

@@ -177,6 +177,8 @@ private:
     // Transitions (contact.cpp)
     void make_contact(std::size_t watched, double s);
     void apply_transition(std::size_t transition, double rate);
+    void add_simultaneous(std::size_t first);
+    void finish_without_way(std::size_t transition);
     void jump(std::size_t index);
     std::optional<std::size_t> next_mode(std::size_t transition, bool& ends);
     void enter(std::size_t jump, std::size_t mode);
@@ -193,6 +195,7 @@ private:
     bool ends_at_two_fold();
     bool is_near_zero(std::size_t event, double s, double share);
     void finish_at_two_fold(double time);
+    bool finish_at_paradox(double time);
     double uncertainty_at_start(std::size_t watched, double size);
     double drift(std::size_t event, double size) const;
     bool fell_before(std::size_t watched, double at_surface);

@@ -1,0 +1,250 @@
+#include "model/contact_impacts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace graze {
+
+/// Contacts that are closed, or close at once.
+struct ContactImpacts::Meeting {
+    const ContactMechanics& mechanics;
+    const ContactStates& closed;
+    const std::vector<std::size_t>& closing;
+    Expression zero{};
+    bool alone = false; ///< contacts that are closed take no impulse, so that they are hit next
+
+    bool is_closing(std::size_t contact) const { return std::ranges::find(closing, contact) != closing.end(); }
+    bool takes_part(std::size_t contact) const {
+        return (!alone && closed[contact] != ContactState::open) || is_closing(contact);
+    }
+    /// Velocities before the impact.
+    Expression normal(std::size_t contact) const {
+        return is_closing(contact) ? mechanics.normal(contact).velocity : zero;
+    }
+    Expression slip(std::size_t contact) const {
+        return closed[contact] == ContactState::stick ? zero : mechanics.slip(contact).velocity;
+    }
+};
+
+Expression ContactImpacts::restitution(std::size_t contact) const {
+    return modes_.motion().expanded(model_.contacts[contact].restitution);
+}
+
+namespace {
+
+/// Returns all combinations of what the contacts that take part may do.
+std::vector<ContactStates> combinations(const std::vector<std::vector<ContactState>>& options) {
+    std::vector<ContactStates> result{{}};
+    for (const std::vector<ContactState>& states : options) {
+        std::vector<ContactStates> longer;
+        for (const ContactStates& one : result)
+            for (const ContactState state : states) {
+                longer.push_back(one);
+                longer.back().push_back(state);
+            }
+        result = std::move(longer);
+    }
+    return result;
+}
+
+} // namespace
+
+/// Newton's and Moreau's law: impulses at which each contact that takes one separates at -e times the velocity before.
+bool ContactImpacts::solve_at_once(const Meeting& meeting, ContactImpact& impact) const {
+    const ContactMechanics& mechanics = meeting.mechanics;
+    const bool moreau = model_.contact_settings.law == ImpactLaw::moreau;
+    std::vector<Expression> normal, tangential;
+    for (std::size_t i = 0; i < impact.active.size(); ++i) {
+        const Expression e = restitution(i);
+        normal.push_back(meeting.takes_part(i) ? -(1.0 + e) * meeting.normal(i) : meeting.zero);
+        tangential.push_back(impact.active[i] == ContactState::stick
+                                 ? -(moreau ? 1.0 + e : meeting.zero + 1.0) * meeting.slip(i)
+                                 : meeting.zero);
+    }
+    const ContactForces impulses = mechanics.solve(impact.active, normal, tangential);
+    impact.changes = impulses.changes;
+    bool possible = true;
+    const auto require = [&](const Expression& function) {
+        possible = possible && add_condition(impact.when, function, false);
+    };
+    for (std::size_t i = 0; i < impact.active.size(); ++i) {
+        if (!meeting.takes_part(i))
+            continue;
+        if (impact.active[i] == ContactState::open) {
+            require(mechanics.along(mechanics.normal(i), impact.changes) - normal[i]);
+            continue;
+        }
+        require(impulses.normal[i]);
+        if (impact.active[i] == ContactState::stick) {
+            require(impulses.limit[i] - impulses.tangential[i]);
+            require(impulses.limit[i] + impulses.tangential[i]);
+        } else if (is_slip(impact.active[i])) {
+            const Expression before = moreau ? (1.0 + restitution(i)) * meeting.slip(i) : meeting.slip(i);
+            const Expression slip = before + mechanics.along(mechanics.slip(i), impact.changes);
+            require(impact.active[i] == ContactState::forward ? slip : -slip);
+        }
+    }
+    for (const Expression& one : impulses.parallel)
+        require(one);
+    return possible;
+}
+
+/// Poisson's law without friction. Compression ends with no contact approaching; expansion gives each contact at least
+/// e times its impulse of compression, and more where it would approach again.
+/// @param compressed contacts with an impulse of compression; those that are active take more in expansion
+bool ContactImpacts::solve_poisson(const Meeting& meeting, const ContactStates& compressed,
+                                   ContactImpact& impact) const {
+    const ContactMechanics& mechanics = meeting.mechanics;
+    std::vector<Expression> wanted;
+    for (std::size_t i = 0; i < compressed.size(); ++i)
+        wanted.push_back(meeting.takes_part(i) ? -meeting.normal(i) : meeting.zero);
+    const ContactForces first = mechanics.solve(compressed, wanted, wanted);
+    bool possible = true;
+    const auto require = [&](const Expression& function) {
+        possible = possible && add_condition(impact.when, function, false);
+    };
+    impact.changes.assign(first.changes.size(), meeting.zero);
+    for (std::size_t i = 0; i < compressed.size(); ++i) {
+        if (!meeting.takes_part(i))
+            continue;
+        if (compressed[i] == ContactState::open) {
+            require(mechanics.along(mechanics.normal(i), first.changes) - wanted[i]);
+            continue;
+        }
+        require(first.normal[i]);
+        const Expression impulse = (1.0 + restitution(i)) * first.normal[i];
+        for (std::size_t k = 0; k < impact.changes.size(); ++k)
+            impact.changes[k] = impact.changes[k] + mechanics.normal(i).response[k] * impulse;
+    }
+    std::vector<Expression> left;
+    for (std::size_t i = 0; i < compressed.size(); ++i)
+        left.push_back(meeting.takes_part(i)
+                           ? -(meeting.normal(i) + mechanics.along(mechanics.normal(i), impact.changes))
+                           : meeting.zero);
+    const ContactForces more = mechanics.solve(impact.active, left, left);
+    for (std::size_t i = 0; i < compressed.size(); ++i) {
+        if (!meeting.takes_part(i))
+            continue;
+        if (impact.active[i] == ContactState::open)
+            require(mechanics.along(mechanics.normal(i), more.changes) - left[i]);
+        else
+            require(more.normal[i]);
+    }
+    for (std::size_t k = 0; k < impact.changes.size(); ++k)
+        impact.changes[k] = impact.changes[k] + more.changes[k];
+    return possible;
+}
+
+/// Notes what is known of the contacts after an impact.
+void ContactImpacts::note_after(const Meeting& meeting, ContactImpact& impact) const {
+    using Normal = ContactKnowledge::Normal;
+    const ImpactLaw law = model_.contact_settings.law;
+    for (std::size_t i = 0; i < impact.active.size(); ++i) {
+        ContactKnowledge& one = impact.after.emplace_back();
+        if (!meeting.takes_part(i)) {
+            const bool kept = meeting.closed[i] != ContactState::open &&
+                              meeting.mechanics.along(meeting.mechanics.normal(i), impact.changes).is_number(0);
+            if (kept) // otherwise it separates, or is hit next
+                one.normal = Normal::touching;
+            continue;
+        }
+        const bool active = impact.active[i] != ContactState::open;
+        const bool vanishes =
+            active && (law == ImpactLaw::poisson || !meeting.is_closing(i) || restitution(i).is_number(0));
+        one.normal = vanishes ? Normal::touching : Normal::unknown;
+        if (vanishes)
+            impact.zero.push_back(meeting.mechanics.normal(i).velocity);
+        if (!meeting.mechanics.rubs(i)) {
+            one.slip = ContactState::closed;
+        } else if (impact.active[i] == ContactState::stick &&
+                   (law != ImpactLaw::moreau || restitution(i).is_number(0) ||
+                    meeting.closed[i] == ContactState::stick)) {
+            one.at_rest = true;
+            impact.zero.push_back(meeting.mechanics.slip(i).velocity);
+        } else if (is_slip(impact.active[i]) && law != ImpactLaw::moreau) {
+            one.slip = impact.active[i];
+        }
+    }
+}
+
+std::vector<ContactImpact> ContactImpacts::at(std::size_t base, const ContactStates& closed,
+                                              const std::vector<std::size_t>& closing) const {
+    const ImpactLaw law = model_.contact_settings.law;
+    const Meeting meeting{modes_.mechanics(base), closed, closing, model_.number(0), law == ImpactLaw::sequence};
+    std::vector<std::vector<ContactState>> options;
+    std::size_t parts = 0;
+    bool smooth = true;
+    for (std::size_t i = 0; i < closed.size(); ++i) {
+        if (!meeting.takes_part(i)) {
+            options.push_back({ContactState::open});
+            continue;
+        }
+        ++parts;
+        smooth = smooth && !meeting.mechanics.rubs(i);
+        if (meeting.mechanics.rubs(i))
+            options.push_back({ContactState::stick, ContactState::forward, ContactState::backward, ContactState::open});
+        else
+            options.push_back({ContactState::closed, ContactState::open});
+    }
+    const auto fewest_open = [](std::vector<ContactStates> all) {
+        std::ranges::stable_sort(
+            all, {}, [](const ContactStates& states) { return std::ranges::count(states, ContactState::open); });
+        return all;
+    };
+    const std::vector<ContactStates> expanding = fewest_open(combinations(options));
+    if (parts == 1) // a contact that approaches takes an impulse
+        options[closing.front()].pop_back();
+    const std::vector<ContactStates> all = fewest_open(combinations(options));
+    std::vector<ContactImpact> result;
+    const auto add = [&](const ContactStates& compressed, const ContactStates& active) {
+        ContactImpact impact{.active = active};
+        if (!modes_.possible(base, active) || !modes_.possible(base, compressed))
+            return;
+        if (law == ImpactLaw::poisson ? !solve_poisson(meeting, compressed, impact) : !solve_at_once(meeting, impact))
+            return;
+        note_after(meeting, impact);
+        if (law == ImpactLaw::poisson) {
+            impact.again = active;
+            for (std::size_t i = 0; i < active.size(); ++i)
+                if (compressed[i] != ContactState::open)
+                    impact.active[i] = compressed[i];
+        }
+        result.push_back(std::move(impact));
+    };
+    for (const ContactStates& compressed : all) {
+        if (law != ImpactLaw::poisson)
+            add(compressed, compressed);
+        else
+            for (const ContactStates& active : expanding)
+                add(compressed, active);
+    }
+    if (smooth && !result.empty()) // the inertia is positive definite: one of them always holds
+        result.back().when.clear();
+    return result;
+}
+
+StateMap ContactImpacts::rest(std::size_t base, const ContactStates& closed, const ContactStates& after,
+                              const std::vector<std::size_t>& closing) const {
+    const Meeting meeting{modes_.mechanics(base), closed, closing, model_.number(0)};
+    std::vector<Expression> normal, tangential, zero;
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        normal.push_back(after[i] == ContactState::open ? meeting.zero : -meeting.normal(i));
+        const bool sticks = after[i] == ContactState::stick;
+        tangential.push_back(sticks ? -meeting.slip(i) : meeting.zero);
+        if (after[i] != ContactState::open)
+            zero.push_back(meeting.mechanics.normal(i).velocity);
+        if (sticks)
+            zero.push_back(meeting.mechanics.slip(i).velocity);
+    }
+    StateMap map = modes_.velocity_map(meeting.mechanics.solve(after, normal, tangential).changes, zero);
+    for (const std::size_t contact : closing) {
+        const StateMap onto = modes_.motion().projection(meeting.mechanics.gap(contact));
+        for (const StateMap::Change& change : onto.changes())
+            map[change.state] = change.image;
+    }
+    return map;
+}
+
+} // namespace graze
