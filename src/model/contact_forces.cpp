@@ -24,7 +24,7 @@ Expression eliminate(ExpressionMatrix& rows, const Expression& one) {
         const auto found = std::find_if(rows.begin() + static_cast<std::ptrdiff_t>(k), rows.end(),
                                         [&](const auto& row) { return !row[k].is_number(0); });
         if (found == rows.end())
-            return one - one;
+            return one.graph()->number(0);
         if (found != rows.begin() + static_cast<std::ptrdiff_t>(k)) {
             std::swap(*found, rows[k]);
             determinant = -determinant;
@@ -57,7 +57,7 @@ std::vector<Expression> accelerations_by(const std::vector<Expression>& mass, co
                        mass.begin() + static_cast<std::ptrdiff_t>((i + 1) * n));
         rows[i].push_back(forces[i]);
     }
-    eliminate(rows, Expression(forces.front().graph()->number(1)));
+    eliminate(rows, forces.front().graph()->number(1));
     for (const auto& row : rows)
         result.push_back(row.back());
     return result;
