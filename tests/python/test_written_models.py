@@ -322,7 +322,7 @@ def test_contacts_make_their_modes():
     floor = graze.Contact(y, 0.6, friction=0.2, slip=v, text="the ground")
     ball = graze.Model("ball", rates={x: v, v: 0, y: w, w: -9.81},
                        contacts=graze.Contacts({"floor": floor, "wall": graze.Contact(x, 0.8)}, mass={v: 1, w: 1}))
-    assert "motion-floor-stick-wall" in ball.modes and graze.Model(text=str(ball)) == ball
+    assert "motion-floor-forward-wall" in ball.modes and graze.Model(text=str(ball)) == ball
     assert tomllib.loads(str(ball))["contacts"]["velocities"] == ["v", "w"]
     end = graze.simulate(ball, time=30)
     assert end.end_state["y"] == 0 and end.end_state["v"] == 0
@@ -489,7 +489,7 @@ WRONG = {
                                                                                 convention="utkn")}),
                                       "slides['s'].convention: slides.s.convention cannot be 'utkn'"),
     "contacts without velocities": (lambda: ball(contacts=graze.Contacts({"wall": graze.Contact(v, 1)}, mass=[1])),
-                                    "contacts has no velocities"),
+                                    "contacts change no velocity"),
     "a contact with friction but no slip": (lambda: ball(contacts=graze.Contacts(
         {"wall": graze.Contact(v, 1, friction=0.2)}, mass={v: 1})), "contacts.wall has no velocity along the surface"),
     "a friction without use": (lambda: ball(friction={"rub": graze.Friction(v, 1, 0.3)}),
