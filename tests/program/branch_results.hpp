@@ -2,6 +2,8 @@
 
 #include "graze/model/model_file.hpp"
 #include "graze/results/result_file.hpp"
+#include "graze/results/run_kind.hpp"
+#include "graze/study/stored_study.hpp"
 #include "run_graze.hpp"
 
 #include <complex>
@@ -48,7 +50,10 @@ energy = { value = "v^2/2 + g*x", unit = "m^2/s^2" }
         run.kind = kind;
         run.model_name = model.name;
         run.model = write_model(model);
-        run.settings = "{}";
+        StudyRun asked(run_kind(kind).value());
+        asked.name = name;
+        asked.model = model;
+        run.settings = settings_of(asked);
         run.fingerprint = "f";
         run.version = "test";
         run.coordinates = {{"g", "m/s^2"}, {"w", ""}};
