@@ -239,7 +239,8 @@ std::optional<SpecialPoint> ChatterEnd::vanishing(BranchState& state, std::size_
     const double value = extrapolated(durations, parameters);
     durations.pop_back();
     parameters.pop_back();
-    const double error = std::abs(value - extrapolated(durations, parameters));
+    constexpr double caution = 4; // durations near the end are known to few digits
+    const double error = caution * std::abs(value - extrapolated(durations, parameters));
     const Seen* const before = longer(segment, 2);
     if (!before || !is_ahead(value, *before) || !(error <= std::abs(value - before->parameter)))
         return std::nullopt;

@@ -117,7 +117,8 @@ bool Continuation::newton(std::vector<double>& u, std::span<const double> row, d
             return false;
         // Newton's method converges quadratically, so this correction was the last. A small one that is not smaller
         // than the one before is round-off.
-        constexpr double round_off = 1e-11;
+        constexpr double least_round_off = 1e-11;
+        const double round_off = std::max(least_round_off, problem_->round_off());
         const bool small = size < options_.accuracy || (iterations > 2 && size < round_off && size > 0.5 * before);
         if (small || (iterations > 1 && size < 0.1 * before && size * size < options_.accuracy * 1e-4)) {
             step_growth_ = iterations <= good_iterations ? step_growth : shrinkage;

@@ -64,6 +64,7 @@ public:
     bool evaluate(std::span<const double> u) override;
     bool solve(std::span<const double> row, double right, bool homogeneous, std::span<double> step,
                double* determinant) override;
+    double round_off() const override { return equations_->round_off(at_); }
     bool has_chords() const override { return held_.empty() && equations_->has_chords(); }
     bool derivatives_are_expensive() const override { return equations_->derivatives_are_expensive(); }
     bool chord(std::span<const double> u, std::span<const double> row, std::span<double> step) override;

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace graze {
@@ -180,6 +181,8 @@ bool Accumulation::evaluate(std::span<const double> state, std::span<const doubl
                  of_ratio = (std::abs(there.values[ratio] - r) + std::abs(at_contact.values[ratio] - r)) / (1 - r);
     constexpr double negligible = 1e-12; // differences of ratios by round-off
     result.relative_error = 4 * change * change + (of_ratio > negligible ? of_ratio : 0);
+    constexpr double epsilon = std::numeric_limits<double>::epsilon();
+    result.round_off = 2 * epsilon * size(state, parameters) / (std::abs(u) * (1 - r));
     return std::isfinite(result.time) && result.state.allFinite() && result.state_by.allFinite() &&
            result.time_by.allFinite();
 }

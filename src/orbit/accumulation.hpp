@@ -35,6 +35,7 @@ public:
         double deceleration = 0;   ///< with which the surface is pressed on at the accumulation
         double ratio = 0;          ///< of speeds after and before a contact
         double relative_error = 0; ///< estimate of what the sum neglects, relative to the remaining time
+        double round_off = 0;      ///< of the remaining time: that of the contact, divided by its speed
     };
     std::size_t mode() const { return mode_; }
     std::size_t transition() const { return transition_; }

@@ -308,6 +308,10 @@ bool OrbitEquations::evaluate(const Eigen::VectorXd& unknowns, OrbitEvaluation& 
 }
 
 bool OrbitEquations::evaluate_piece(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at) {
+    if (layout_.is_contact(k) && !(unknowns[index(layout_.duration_of(k))] > 0)) {
+        at.problem = fmt::format("two contacts of segment {} come at the same time", layout_.segment_of(k) + 1);
+        return false;
+    }
     if (!(layout_.accumulates(k) ? accumulate(k, unknowns, at) : follow(k, unknowns, at)))
         return false;
     OrbitEvaluation::Piece& piece = at.pieces[k];
@@ -348,6 +352,7 @@ bool OrbitEquations::accumulate(std::size_t k, const Eigen::VectorXd& unknowns, 
     piece.condition.setZero(left.time_by.size());
     piece.condition_value = unknowns[index(layout_.duration_of(k))] - left.time;
     piece.time_by = left.time_by;
+    piece.time_round_off = left.round_off;
     piece.watched = {};
     piece.inner.resize(0, 0);
     return true;
@@ -362,6 +367,14 @@ double OrbitEquations::duration_of_segment(const Eigen::VectorXd& unknowns, std:
     for (std::size_t k = layout_.first_piece(segment); k <= layout_.last_piece(segment); ++k)
         duration += unknowns[index(layout_.duration_of(k))];
     return duration;
+}
+
+double OrbitEquations::round_off(const OrbitEvaluation& at) const {
+    double result = 0;
+    for (std::size_t s = 0; s < layout_.segments(); ++s)
+        if (const std::size_t last = layout_.last_piece(s); layout_.accumulates(last))
+            result = std::max(result, at.pieces[last].time_round_off / scales_[index(layout_.duration_of(last))]);
+    return result;
 }
 
 bool OrbitEquations::contacts_need_renewal(const OrbitEvaluation& at) const {
@@ -393,7 +406,7 @@ void OrbitEquations::assemble(const Eigen::VectorXd& unknowns, OrbitEvaluation& 
         if (layout_.accumulates(k)) {
             assemble_accumulation(k, at);
         } else if (layout_.has_end(k)) {
-            assemble_end(k, at);
+            assemble_end(k, unknowns[index(layout_.duration_of(k))], at);
         } else {
             const Eigen::Index duration = index(layout_.duration_of(k));
             block.own(0, index(layout_.states())) = 1;
@@ -449,22 +462,31 @@ void OrbitEquations::drop_accidentally_neutral(const OrbitEvaluation& at, std::v
     ends_.set_parameters(at.parameters);
 }
 
+double OrbitEquations::first_duration(std::size_t flight) const {
+    const std::size_t segment = layout_.segment_of(flight);
+    return contacts_[segment].durations[flight - layout_.first_piece(segment)];
+}
+
 /// Fills the row of the end condition of a segment. Event functions have units of their own, so the row is divided by
 /// their change over the scales of the states.
-void OrbitEquations::assemble_end(std::size_t k, OrbitEvaluation& at) const {
+/// A flight of a chatter sequence begins on the surface and would satisfy its condition with duration 0 as well: the
+/// condition is divided by the duration, relative to its first value, so that Newton's method cannot end there.
+void OrbitEquations::assemble_end(std::size_t k, double duration, OrbitEvaluation& at) const {
     const auto n = index(layout_.states()), q = index(layout_.free());
     OrbitEvaluation::Piece& piece = at.pieces[k];
     CyclicSystem::Block& block = at.system.block(k);
     const Eigen::VectorXd state_scales = scales_.head(n), parameter_scales = scales_.tail(q);
     const Eigen::RowVectorXd gradient = piece.condition.head(n).transpose();
     const double size = gradient.cwiseAbs() * state_scales;
-    const double unit = size > 0 ? size : 1;
+    const bool is_flight = layout_.is_contact(k);
+    const double unit = (size > 0 ? size : 1) * (is_flight ? duration / first_duration(k) : 1);
     piece.condition_unit = unit;
     const Eigen::RowVectorXd by_start = gradient * piece.flow.leftCols(n) * state_scales.asDiagonal();
     const Eigen::RowVectorXd by_parameters = gradient * piece.flow.rightCols(q) + piece.condition.tail(q).transpose();
     at.effects = at.effects.cwiseMax(by_parameters.transpose().cwiseAbs() / unit);
     block.own.row(0).head(n) = by_start / unit;
-    block.own(0, n) = gradient.dot(piece.by_time) * scales_[index(layout_.duration_of(k))] / unit;
+    const double by_duration = gradient.dot(piece.by_time) - (is_flight ? piece.condition_value / duration : 0);
+    block.own(0, n) = by_duration * scales_[index(layout_.duration_of(k))] / unit;
     block.parameters.row(0) = by_parameters * parameter_scales.asDiagonal() / unit;
     block.right[0] = -piece.condition_value / unit;
 }

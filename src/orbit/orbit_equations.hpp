@@ -110,6 +110,9 @@ public:
     /// True when other contacts of a chatter sequence should be resolved: the remaining ones are not slow enough to be
     /// summed, or the last ones are so slow that round-off moves them.
     bool contacts_need_renewal(const OrbitEvaluation& at) const;
+    /// Returns the round-off of the durations of chatter sequences at an evaluation, in units of their scales;
+    /// otherwise 0.
+    double round_off(const OrbitEvaluation& at) const;
     /// True when a segment is a complete chatter sequence.
     bool has_chatter() const;
     /// The same for the function of another event.
@@ -154,7 +157,9 @@ private:
     bool accumulate(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at);
     bool evaluate_piece(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at);
     void assemble(const Eigen::VectorXd& unknowns, OrbitEvaluation& at);
-    void assemble_end(std::size_t k, OrbitEvaluation& at) const;
+    /// Returns the duration that a flight of a chatter sequence has in the orbit with which the equations were made.
+    double first_duration(std::size_t flight) const;
+    void assemble_end(std::size_t k, double duration, OrbitEvaluation& at) const;
     void assemble_accumulation(std::size_t k, OrbitEvaluation& at) const;
     void assemble_closure(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at,
                           std::vector<bool>& neutral) const;

@@ -87,6 +87,7 @@ struct OrbitEvaluation {
         /// Of a piece that takes in all contacts that are left: derivatives of its duration with respect to the states
         /// at its start and the free parameters. Its `flow` contains the change of this time, and `condition` is zero.
         Eigen::VectorXd time_by;
+        double time_round_off = 0; ///< of that duration
     };
 
     Eigen::VectorXd unknowns; ///< unknowns of the evaluation; empty when it failed, and `problem` says why

@@ -142,6 +142,20 @@ TEST(ChatterBranch, EndsAtAnOnsetThatIsTooFarToBeFollowed) {
     }
 }
 
+TEST(ChatterBranch, FollowsSequencesOfManySlowContacts) {
+    // Near e = 0.87 some seventy contacts are resolved; the last flights are a hundred-thousandth of the first.
+    const double least = 9.81 / (omega_of_table * omega_of_table);
+    Model model = ball(least / 0.9);
+    model.set_parameter("e", 0.4);
+    const OrbitSolution start = settled(model, "phase0");
+    const Branch branch = follow_branch(System(model), start.orbit, in_parameter(model, "e", 0.3, 0.88, 1));
+    EXPECT_EQ(branch.outcome, BranchOutcome::bound) << branch.detail;
+    for (const BranchPoint& point : branch.points) {
+        EXPECT_TRUE(point.solution.certificate.admissible) << point.parameter << point.solution.certificate.reason;
+        EXPECT_TRUE(point.stable) << point.parameter; // contacts that accumulate forget the start
+    }
+}
+
 TEST(ChatterBranch, EndsWhereTheBallNoLongerLeavesTheTable) {
     // The table's greatest acceleration is a omega^2.
     const double least = 9.81 / (omega_of_table * omega_of_table);

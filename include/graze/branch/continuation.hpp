@@ -39,6 +39,9 @@ public:
     virtual bool chord(std::span<const double>, std::span<const double>, std::span<double>) { return false; }
     /// Called before each step with its start point; the problem may then choose new scales.
     virtual void accept(std::span<const double>) {}
+    /// Returns the round-off of solutions beside the last evaluation, in scaled unknowns, where it is known to be
+    /// large.
+    virtual double round_off() const { return 0; }
     /// Removes whole periods from the difference of two solutions where unknowns are angles.
     virtual void reduce(std::span<double>) const {}
 
