@@ -1,5 +1,6 @@
 #include "graze/flow/mode_flow.hpp"
 
+#include "flow/table_steps.hpp"
 #include "flow/uniformised_flow.hpp"
 #include "graze/base/require.hpp"
 
@@ -48,7 +49,8 @@ ModeFlow::ModeFlow(const System& system, double tolerance, int order, std::vecto
       tangents_(system, tolerance, directions_), allowance_{StepCheck::allowance * tolerance,
                                                             StepCheck::value_allowance * tolerance,
                                                             StepCheck::smallest_size},
-      tolerance_(tolerance), order_(order) {
+      table_steps_(std::make_unique<TableSteps>(system, order_of(tolerance, order))), tolerance_(tolerance),
+      order_(order) {
     if (directions_ > 0)
         jets_.add_tangents();
     for (const ParameterId parameter : free_)
@@ -81,6 +83,7 @@ void ModeFlow::set_parameters(std::span<const double> parameters) {
     std::copy(parameters.begin(), parameters.end(), parameters_.begin());
     jets_.set_parameters(parameters_);
     step_check_.set_parameters(parameters_);
+    table_steps_->set_parameters(parameters_);
     dormant_states_.set_parameters(parameters_);
     tangents_.set_parameters(parameters_, parameter_seeds_);
     if (uniformised_)
@@ -104,7 +107,8 @@ bool ModeFlow::agrees(std::size_t mode, double length) {
 /// Returns the length of the next step, with the sign of `remaining`: chosen from the series, then shortened to where
 /// they agree with the model. @param watched whether event functions are needed too, as accurate as the states
 double ModeFlow::step_of(std::size_t mode, const Jet& jet, double remaining, bool watched) {
-    const std::span<const Series> all = jet.series(), series = watched ? all : all.first(states_);
+    const std::span<const Series> all = jet.series(),
+                                  series = watched || !system_.mode(mode).tables.empty() ? all : all.first(states_);
     double step = step_size_(series, previous_);
     // The size of a state that starts almost at zero, such as a phase of 1e-18, says nothing about its changes.
     if (previous_ == 0 && step < smallest_share * std::abs(remaining))
@@ -118,12 +122,19 @@ double ModeFlow::step_of(std::size_t mode, const Jet& jet, double remaining, boo
     guarded_.assign(static_cast<std::size_t>(jet.width()), std::numeric_limits<double>::infinity());
     guarded_[0] = std::min(step, std::abs(remaining));
     jet.guard_steps(guarded_);
+    const double to_knot = table_steps_->limit(mode, all, std::copysign(guarded_[0], remaining));
+    if (std::isnan(to_knot))
+        return to_knot;
+    at_knot_ = std::abs(to_knot) < guarded_[0];
+    crosses_knot_ = at_knot_ && table_steps_->crosses();
+    guarded_[0] = std::abs(to_knot);
     const double wanted = std::copysign(guarded_[0], remaining);
     // This test accepts most steps; the others go to StepCheck, which allows more.
-    const double longest = !leap && agrees(mode, wanted)
+    const double longest = crosses_knot_ || (!leap && agrees(mode, wanted))
                                ? guarded_[0]
                                : std::abs(step_check_.longest(mode, series, wanted, leap, dormant_states_.floors()));
-    if (longest < std::min(step, std::abs(remaining)))
+    at_knot_ = at_knot_ && longest == guarded_[0];
+    if (longest < std::min(step, std::abs(remaining)) && !at_knot_)
         previous_ = longest;
     else if (bounded)
         previous_ = step;
@@ -200,7 +211,7 @@ ModeFlow::Ending ModeFlow::follow(std::size_t mode, std::span<double> state, dou
         double step = step_of(mode, jet, remaining, watchers.needs_events());
         if (std::isnan(step))
             return Ending::undefined;
-        if (std::abs(step) < std::abs(duration) * smallest_share && step != remaining)
+        if (std::abs(step) < std::abs(duration) * smallest_share && step != remaining && !at_knot_)
             return Ending::singular;
         ends = watchers.end != nullptr && (*watchers.end)(jet, step);
         if (watchers.visit != nullptr)
@@ -273,11 +284,16 @@ ModeFlow::Ending ModeFlow::follow(std::size_t mode, std::span<double> state, dou
         tangents_.begin(jet, mode, state, matrix_);
         const std::span<const double> end =
             seen_ == wanted ? std::span<const double>(sums_).first(states_) : std::span<const double>{};
-        const double step = tangents_.carry(jets_.next(mode), wanted, next_, end);
+        double step = wanted;
+        if (crosses_knot_)
+            tangents_.cross(wanted, next_);
+        else
+            step = tangents_.carry(jets_.next(mode), wanted, next_, end);
         if (std::isnan(step))
             return Ending::undefined;
+        at_knot_ = at_knot_ && step == wanted;
         ends = ends && step == wanted;
-        if (std::abs(step) < std::abs(duration) * smallest_share && step != remaining && !ends)
+        if (std::abs(step) < std::abs(duration) * smallest_share && step != remaining && !ends && !at_knot_)
             return Ending::singular;
         std::copy(tangents_.state().begin(), tangents_.state().end(), state.begin());
         if (watchers.watched != nullptr)

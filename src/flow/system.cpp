@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <map>
 #include <mutex>
+#include <set>
 #include <utility>
 
 namespace graze {
@@ -64,7 +65,8 @@ private:
     void compile_transitions(System::Parts& parts);
     void compile_surfaces(System::Parts& parts);
     void compile_tape(System::CompiledMode& compiled, const std::vector<Expression>& rates,
-                      const std::vector<Expression>& outputs);
+                      std::vector<Expression> outputs);
+    std::vector<Expression> add_arguments(const std::vector<Expression>& rates, std::vector<Expression>& outputs);
     std::vector<Expression> watched_functions(const System::CompiledMode& compiled);
     std::vector<Expression> with_observed(std::vector<Expression> outputs, std::span<const Expression> observed);
     System::CompiledJump map_of(const StateMap& map);
@@ -307,13 +309,36 @@ LinearMode SystemCompiler::linearise(const System& system, std::size_t mode, std
         add(linear.equations.entries, entry.row, entry.source, std::move(entry.coefficient), LinearMode::by_states);
     for (JacobianEntry& entry : sparse_jacobian(events, inputs_))
         add(linear.events, entry.row, entry.column, std::move(entry.value), LinearMode::of_events);
-    linear.tape =
-        graze::compile_tape(states_.symbols(), parameters_.symbols(), rates, with_observed(events, observed), deferred);
+    std::vector<Expression> outputs = with_observed(events, observed);
+    add_arguments(rates, outputs);
+    linear.tape = graze::compile_tape(states_.symbols(), parameters_.symbols(), rates, outputs, deferred);
     return linear;
 }
 
+/// Adds the arguments at which tables are looked up to the outputs of a tape. @return the lookups
+std::vector<Expression> SystemCompiler::add_arguments(const std::vector<Expression>& rates,
+                                                      std::vector<Expression>& outputs) {
+    std::vector<Expression> all = rates, lookups;
+    all.insert(all.end(), outputs.begin(), outputs.end());
+    const Subgraph part = subgraph_of(all);
+    std::set<std::pair<std::size_t, NodeIndex>> known; // tables and arguments
+    for (const Subgraph::Item& item : part.items) {
+        const Node& node = part.node(item);
+        if (node.operation != Operation::lookup || !known.emplace(Graph::lookup_of(node).table, node.left).second)
+            continue;
+        lookups.push_back(part.expression(item));
+        outputs.push_back(part.expression(part.items[item.left]));
+    }
+    return lookups;
+}
+
 void SystemCompiler::compile_tape(System::CompiledMode& compiled, const std::vector<Expression>& rates,
-                                  const std::vector<Expression>& outputs) {
+                                  std::vector<Expression> outputs) {
+    const std::vector<Expression> lookups = add_arguments(rates, outputs);
+    compiled.tables.clear();
+    for (const Expression& lookup : lookups)
+        compiled.tables.push_back(lookup.graph()->tables()[Graph::lookup_of(lookup.node()).table]);
+    compiled.table_arguments = compile(inputs_, std::span(outputs).last(lookups.size()));
     std::vector<Expression> all = rates;
     all.insert(all.end(), outputs.begin(), outputs.end());
     compiled.evidence = compile(inputs_, all); // reports unknown symbols

@@ -191,6 +191,20 @@ double TangentSteps::carry(Jet& next, double length, std::span<double> after, st
     return length;
 }
 
+void TangentSteps::cross(double length, std::span<double> after) {
+    if (jet_ == nullptr)
+        throw OrderError("derivatives are carried along a step that has begun");
+    require_size(after.size(), states_ * directions_, "derivatives");
+    const std::size_t width = lanes_of_mode().here->width();
+    for (std::size_t first = 0; first < directions_; first += width) {
+        load(first);
+        lanes_of_mode().here->evaluate(length, sums_, slopes_);
+        for (std::size_t i = 0; i < states_; ++i)
+            std::copy_n(&sums_[i * width], std::min(width, directions_ - first), &after[i * directions_ + first]);
+    }
+    jet_->evaluate_states({&length, 1}, state_);
+}
+
 std::vector<std::uint32_t> TangentSteps::groups_with_events() const {
     std::vector<std::uint32_t> groups = groups_;
     groups.push_back(LinearMode::of_events);

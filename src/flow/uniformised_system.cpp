@@ -73,7 +73,7 @@ public:
             else if (!exponents_[i].empty() && part_.items[item.left].index == radicand.index())
                 results[i] = replace(exponents_[i]);
             else if (operands == 1)
-                results[i] = part_.graph->apply(operation, results[item.left]);
+                results[i] = part_.graph->apply_as(*part_.graph, part_.node(item), results[item.left]);
             else
                 results[i] = part_.graph->apply(operation, results[item.left], results[item.right]);
         }

@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <map>
 #include <numeric>
+#include <optional>
 
 namespace graze {
 
@@ -23,8 +24,11 @@ namespace {
 /// Reads one model, table by table.
 class ModelReader : private ContactParts {
 public:
-    ModelReader(std::string_view text, const std::string& file)
-        : ContactParts(text, file), root_(parse_toml(text, file)) {}
+    ModelReader(std::string_view text, const std::string& file, std::optional<std::string> folder = std::nullopt)
+        : ContactParts(text, file), root_(parse_toml(text, file)) {
+        if (folder)
+            allow_files(*folder);
+    }
 
     Model read() {
         if (root_.empty())
@@ -42,9 +46,10 @@ public:
         };
         mistakes_.attempt([&] { read_head(top); });
         const bool named =
-            read("parameters", &ModelReader::name_parameters) && read("states", &ModelReader::name_states) &&
-            read("definitions", &ModelReader::name_definitions) && read("modes", &ModelReader::name_modes) &&
-            read("slides", &ModelReader::name_slides) && read("friction", &ModelReader::name_frictions) &&
+            read("tables", &ModelReader::read_tables) && read("parameters", &ModelReader::name_parameters) &&
+            read("states", &ModelReader::name_states) && read("definitions", &ModelReader::name_definitions) &&
+            read("modes", &ModelReader::name_modes) && read("slides", &ModelReader::name_slides) &&
+            read("friction", &ModelReader::name_frictions) &&
             mistakes_.attempt([&] { validate_names(model_, places_); });
         if (!named) // everything else refers to these names
             mistakes_.throw_noted();
@@ -417,10 +422,10 @@ private:
 } // namespace
 
 const std::vector<std::string>& model_keys() {
-    static const std::vector<std::string> keys{"name",        "text",        "source",    "time_unit", "parameters",
-                                               "states",      "definitions", "modes",     "events",    "jumps",
-                                               "transitions", "slides",      "friction",  "contacts",  "sections",
-                                               "symmetries",  "quantities",  "conserved", "drawing",   "initial"};
+    static const std::vector<std::string> keys{
+        "name",     "text",       "source",     "time_unit",   "parameters", "states",   "definitions",
+        "modes",    "events",     "jumps",      "transitions", "slides",     "friction", "contacts",
+        "sections", "symmetries", "quantities", "conserved",   "tables",     "drawing",  "initial"};
     return keys;
 }
 
@@ -429,7 +434,8 @@ Model parse_model(std::string_view text, const std::string& file) {
 }
 
 Model read_model(const std::string& path) {
-    return parse_model(read_text_file(path, "model file", longest_model), path);
+    const std::string text = read_text_file(path, "model file", longest_model);
+    return ModelReader(text, path, std::filesystem::path(path).parent_path().string()).read();
 }
 
 } // namespace graze

@@ -1,15 +1,15 @@
 #pragma once
 
-#include "model/model_file_parts.hpp"
+#include "model/model_file_tables.hpp"
 
 #include <string>
 
 namespace graze {
 
 /// Reads the table [drawing] of a model.
-class DrawingParts : protected ModelParts {
+class DrawingParts : protected TableParts {
 protected:
-    using ModelParts::ModelParts;
+    using TableParts::TableParts;
 
     void read_drawing(const TomlEntry& group);
 

@@ -4,6 +4,7 @@
 #include "graze/base/input_errors.hpp"
 #include "graze/base/name_list.hpp"
 #include "graze/symbolic/parser.hpp"
+#include "graze/symbolic/piece_table.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "model/model_drawing.hpp"
 #include "model/model_expand.hpp"
@@ -425,6 +426,8 @@ void validate_names(const Model& model, const Places& places) {
         names.add(definition.name, "definition", "definitions." + definition.name);
     for (const Friction& friction : model.frictions)
         names.add(friction.name, "friction", "friction." + friction.name);
+    for (const auto& table : model.graph->tables())
+        names.add(table->name(), "table", "tables." + table->name());
     std::set<std::string> controls; // several slides may have one control
     for (const Slide& slide : model.slides)
         if (!slide.control.empty() && controls.insert(slide.control).second)

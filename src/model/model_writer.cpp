@@ -2,6 +2,7 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/symbolic/parser.hpp"
+#include "graze/symbolic/piece_table.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "model/model_completion.hpp"
 #include "model/model_expressions.hpp"
@@ -48,6 +49,7 @@ public:
         string("source", model_.source);
         string("time_unit", model_.time_unit);
         write_values();
+        write_tables();
         write_modes();
         write_events();
         write_jumps();
@@ -105,6 +107,25 @@ private:
             line("\n[definitions]");
         for (const Definition& definition : model_.definitions)
             item(definition.name, {{"value", value_text(definition.value)}, {"text", quoted_if_any(definition.text)}});
+    }
+
+    /// Writes tables with their points, so that a stored model needs no other file.
+    void write_tables() {
+        for (const auto& table : model_.graph->tables()) {
+            line("\n[tables.{}]", table->name());
+            string("text", table->text());
+            const PieceTable::Options& options = table->options();
+            if (options.interpolation == PieceTable::Interpolation::cubic)
+                line("interpolation = \"cubic\"");
+            if (options.periodic)
+                line("periodic = true");
+            else if (options.outside != PieceTable::Outside::hold)
+                line("outside = {}", options.outside == PieceTable::Outside::linear ? "\"linear\"" : "\"error\"");
+            line("points = [");
+            for (const PieceTable::Point& point : table->points())
+                line("    [{}, {}],", number_text(point.x), number_text(point.y));
+            line("]");
+        }
     }
 
     std::string events(const std::vector<std::size_t>& watched) const {

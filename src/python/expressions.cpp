@@ -27,7 +27,7 @@ Expression made_in(Graph& graph, const Expression& given) {
         else if (node.operation == Operation::symbol)
             made.push_back(graph.symbol(part.graph->symbol_name(node)));
         else if (arity(node.operation) == 1)
-            made.push_back(graph.apply(node.operation, made[item.left]));
+            made.push_back(graph.apply_as(*part.graph, node, made[item.left]));
         else
             made.push_back(graph.apply(node.operation, made[item.left], made[item.right]));
     }

@@ -39,6 +39,10 @@ Expression slope_of(Operation operation, const Expression& y, const Expression& 
     switch (operation) {
     case Operation::negate:
         return a.graph()->number(-1);
+    case Operation::lookup: {
+        const auto [table, derivative] = Graph::lookup_of(y.node());
+        return a.graph()->look_up(table, derivative + 1, a);
+    }
 #define GRAZE_ROW(name, recurrence, slope)                                                                             \
     case Operation::name:                                                                                              \
         return slope;

@@ -14,6 +14,7 @@ inline double evaluate_operation(Operation operation, double left, double right)
     switch (operation) {
     case Operation::number:
     case Operation::symbol:
+    case Operation::lookup: // see Function
         break;
     case Operation::add:
         return left + right;

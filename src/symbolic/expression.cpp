@@ -1,6 +1,7 @@
 #include "graze/symbolic/expression.hpp"
 
 #include "graze/base/input_error.hpp"
+#include "graze/symbolic/piece_table.hpp"
 
 #include "symbolic/function_table.hpp"
 #include "symbolic/simplify.hpp"
@@ -56,7 +57,7 @@ int arity(Operation operation) {
     default:
         break;
     }
-    if (operation > last_function)
+    if (operation > Operation::lookup)
         throw InputError("there is no such operation", "");
     return 1;
 }
@@ -116,6 +117,8 @@ Expression Graph::adopt(const Expression& foreign) {
             node.left = symbol(part.graph->symbol_name(node)).index();
         else if (arity(node.operation) > 0)
             node.left = own[item.left];
+        if (node.operation == Operation::lookup)
+            node.right = own_lookup(*part.graph, node);
         if (arity(node.operation) == 2)
             node.right = own[item.right];
         own.push_back(node.operation == Operation::symbol ? node.left : intern(node));
@@ -181,6 +184,42 @@ Expression Graph::apply(Operation operation, const Expression& left, const Expre
     if (arity(operation) != 2)
         throw InputError("an operation that does not take two operands was given two", "");
     return {shared_from_this(), Simplifier(*this).arithmetic(operation, own(left), own(right))};
+}
+
+Expression Graph::apply_as(const Graph& from, const Node& node, const Expression& operand) {
+    if (node.operation != Operation::lookup)
+        return apply(node.operation, operand);
+    const auto [table, derivative] = lookup_of(node);
+    return look_up(&from == this ? table : add_table(from.tables_[table]), derivative, operand);
+}
+
+std::size_t Graph::add_table(std::shared_ptr<const PieceTable> table) {
+    for (std::size_t i = 0; i < tables_.size(); ++i)
+        if (tables_[i]->name() == table->name()) {
+            if (tables_[i] != table && !(*tables_[i] == *table))
+                throw InputError("there are two tables '" + table->name() + "'", "rename one of them");
+            return i;
+        }
+    require_growing();
+    tables_.push_back(std::move(table));
+    return tables_.size() - 1;
+}
+
+NodeIndex Graph::own_lookup(const Graph& from, const Node& node) {
+    const auto [table, derivative] = lookup_of(node);
+    return static_cast<NodeIndex>(4 * add_table(from.tables_[table]) + static_cast<std::size_t>(derivative));
+}
+
+Expression Graph::look_up(std::size_t table, int derivative, const Expression& operand) {
+    require_index(table, tables_.size(), "table");
+    const NodeIndex index = own(operand);
+    if (derivative > tables_[table]->degree())
+        return number(0);
+    if (nodes_[index].operation == Operation::number)
+        if (const double value = tables_[table]->value(nodes_[index].value, derivative); std::isfinite(value))
+            return number(value);
+    const auto code = static_cast<NodeIndex>(4 * table + static_cast<std::size_t>(derivative));
+    return {shared_from_this(), intern({Operation::lookup, index, code, 0})};
 }
 
 Expression operator+(const Expression& a, const Expression& b) {

@@ -3,6 +3,7 @@
 #include "base/special_numbers.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
+#include "graze/symbolic/piece_table.hpp"
 #include "symbolic/evaluate.hpp"
 #include "symbolic/interval_operation.hpp"
 #include "symbolic/subgraph.hpp"
@@ -125,6 +126,8 @@ void Function::compile(const SymbolIndex& inputs, std::span<const Expression> ou
         slots[position] = static_cast<std::uint32_t>(slots_++);
         if (node.operation == Operation::number)
             numbers_.emplace_back(slots[position], node.value);
+        else if (node.operation == Operation::lookup)
+            steps_.push_back({node.operation, slots[position], slots[item.left], look_up(*part.graph, node)});
         else
             steps_.push_back({node.operation, slots[position], slots[item.left],
                               arity(node.operation) == 2 ? slots[item.right] : slots[item.left]});
@@ -134,6 +137,28 @@ void Function::compile(const SymbolIndex& inputs, std::span<const Expression> ou
     uses_all_ = used_.size() == inputs_;
     if (uses_all_)
         used_ = {};
+}
+
+/// Keeps the table that a node looks up. @return what a step stores
+std::uint32_t Function::look_up(const Graph& graph, const Node& node) {
+    const auto [table, derivative] = Graph::lookup_of(node);
+    auto found = std::ranges::find(tables_, graph.tables()[table]);
+    if (found == tables_.end())
+        found = tables_.insert(found, graph.tables()[table]);
+    return static_cast<std::uint32_t>(4 * (found - tables_.begin()) + derivative);
+}
+
+double Function::error_of(const Step& step, double value, double left, double left_error, double right,
+                          double right_error) const {
+    if (step.operation != Operation::lookup)
+        return operation_error(step.operation, value, left, left_error, right, right_error);
+    const int derivative = derivative_of(step);
+    const PieceTable::Piece piece = table_of(step).piece_at(left);
+    double error = 0, power = 1;
+    for (int k = 1; k + derivative <= table_of(step).degree(); ++k)
+        error += std::abs(piece.at(left, derivative + k)) * (power *= left_error);
+    return error + epsilon * (std::abs(value) + std::abs(piece.coefficients[0]) +
+                              std::abs(piece.at(left, derivative + 1) * (std::abs(left) + std::abs(piece.knot))));
 }
 
 template <class Number>
@@ -169,7 +194,9 @@ void Function::evaluate(std::span<const double> inputs, std::span<double> result
     for (const auto& [slot, value] : numbers_)
         work[slot] = value;
     for (const Step& step : steps_)
-        work[step.result] = evaluate_operation(step.operation, work[step.left], work[step.right]);
+        work[step.result] = step.operation == Operation::lookup
+                                ? table_of(step).value(work[step.left], derivative_of(step))
+                                : evaluate_operation(step.operation, work[step.left], work[step.right]);
     give_outputs<double>(work, inputs, results);
 }
 
@@ -187,10 +214,13 @@ void Function::error_bounds(std::span<const double> inputs, std::span<const doub
         uncertain[slot] = 0;
     }
     for (const Step& step : steps_) {
-        const double left = values[step.left], right = values[step.right];
-        values[step.result] = evaluate_operation(step.operation, left, right);
-        uncertain[step.result] = operation_error(step.operation, values[step.result], left, uncertain[step.left], right,
-                                                 uncertain[step.right]);
+        const bool table = step.operation == Operation::lookup;
+        const std::uint32_t second = table ? step.left : step.right;
+        const double left = values[step.left], right = values[second];
+        values[step.result] =
+            table ? table_of(step).value(left, derivative_of(step)) : evaluate_operation(step.operation, left, right);
+        uncertain[step.result] =
+            error_of(step, values[step.result], left, uncertain[step.left], right, uncertain[second]);
     }
     give_outputs<double>(uncertain, errors, bounds);
 }
@@ -204,7 +234,9 @@ void Function::enclose(std::span<const Interval> inputs, std::span<Interval> res
         work[slot] = Interval::point(value);
     for (const Step& step : steps_)
         work[step.result] =
-            enclose_operation(step.operation, work[step.left], work[step.right], step.left == step.right);
+            step.operation == Operation::lookup
+                ? table_of(step).enclose(work[step.left], derivative_of(step))
+                : enclose_operation(step.operation, work[step.left], work[step.right], step.left == step.right);
     give_outputs<Interval>(work, inputs, results);
 }
 
@@ -225,9 +257,10 @@ bool Function::narrow(std::span<Interval> inputs, std::span<const Interval> want
             return false;
     }
     for (std::size_t step = steps_.size(); step-- > 0;) {
-        const auto& [operation, result, left, right] = steps_[step];
+        const auto& [operation, result, left, second] = steps_[step];
         if (!matters[result])
             continue;
+        const std::uint32_t right = operation == Operation::lookup ? left : second;
         narrow_operands(operation, work[result], work[left], work[right], left == right);
         matters[left] = matters[right] = true;
         if (work[left].empty() || work[right].empty())

@@ -227,6 +227,7 @@ Interval enclose_operation(Operation operation, const Interval& left, const Inte
     switch (operation) {
     case Operation::number:
     case Operation::symbol:
+    case Operation::lookup: // see Function
         break;
     case Operation::add:
         return left + right;

@@ -1,6 +1,7 @@
 #include "graze/symbolic/parser.hpp"
 
 #include "graze/base/name_list.hpp"
+#include "graze/symbolic/piece_table.hpp"
 #include "symbolic/lexer.hpp"
 #include "symbolic/vocabulary.hpp"
 
@@ -58,8 +59,9 @@ private:
     struct Pending {
         enum class Kind { binary, negation, parenthesis, call } kind;
         Precedence precedence;
-        Operation operation; ///< of the operator, or of the function that is called
-        Token token;         ///< the operator, the parenthesis or the function's name
+        Operation operation;   ///< of the operator, or of the function that is called
+        Token token;           ///< the operator, the parenthesis or the function's name
+        std::size_t table = 0; ///< that is looked up
 
         bool is_open() const { return precedence == Precedence::none; }
     };
@@ -67,6 +69,12 @@ private:
     bool take_operand();
     bool take_operator();
     void take_name();
+    /// Returns the index of a table of the graph, or the number of tables.
+    std::size_t table_named(std::string_view name) const {
+        const auto& tables = graph_.tables();
+        return static_cast<std::size_t>(
+            std::ranges::find_if(tables, [&](const auto& table) { return table->name() == name; }) - tables.begin());
+    }
     void take_binary(BinaryOperator binary);
     void close_parenthesis();
     /// Applies pending operators that bind tighter than the next one, or equally tight if left-associative.
@@ -142,9 +150,10 @@ void Parser::take_name() {
     const Token name = advance();
     if (token_.kind == Kind::open) {
         const std::optional<Operation> function = function_named(name.text);
-        if (!function)
+        const std::size_t table = function ? 0 : table_named(name.text);
+        if (!function && table == graph_.tables().size())
             refuse_name(name, true);
-        pending_.push_back({Pending::Kind::call, Precedence::none, *function, name});
+        pending_.push_back({Pending::Kind::call, Precedence::none, function.value_or(Operation::lookup), name, table});
         advance();
         return;
     }
@@ -187,7 +196,8 @@ void Parser::close_parenthesis() {
     const Pending opened = pending_.back();
     pending_.pop_back();
     if (opened.kind == Pending::Kind::call)
-        operands_.back() = graph_.apply(opened.operation, operands_.back());
+        operands_.back() = opened.operation == Operation::lookup ? graph_.look_up(opened.table, 0, operands_.back())
+                                                                 : graph_.apply(opened.operation, operands_.back());
     advance();
 }
 
@@ -211,7 +221,7 @@ void Parser::refuse_name(const Token& name, bool is_call) const {
     const std::string text = quoted(name.text);
     if (is_call && (scope_.contains(name.text) || name.text == "pi"))
         source_.fail(name.offset, text + " is not a function", fmt::format("write {}*(...) for a product", name.text));
-    if (!is_call && function_named(name.text))
+    if (!is_call && (function_named(name.text) || table_named(name.text) < graph_.tables().size()))
         source_.fail(name.offset, "the function " + text + " has no argument",
                      fmt::format("write {}(...), with parentheses", name.text));
     if (const std::optional<Refusal> refusal = refusal_of(name.text))
@@ -223,6 +233,9 @@ void Parser::refuse_name(const Token& name, bool is_call) const {
     if (is_call || candidates.empty())
         for (const FunctionName& function : function_names())
             candidates.emplace_back(function.name);
+    if (is_call)
+        for (const auto& table : graph_.tables())
+            candidates.push_back(table->name());
     const std::string nearest = nearest_name(name.text, candidates);
     std::string remedy;
     if (!nearest.empty()) {

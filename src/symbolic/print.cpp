@@ -1,6 +1,7 @@
 #include "graze/symbolic/transform.hpp"
 
 #include "graze/base/input_error.hpp"
+#include "graze/symbolic/piece_table.hpp"
 
 #include "symbolic/subgraph.hpp"
 #include "symbolic/vocabulary.hpp"
@@ -81,6 +82,15 @@ private:
         push(node.left, left);
     }
 
+    void push_call(const Node& node, std::string_view name, std::string_view primes) {
+        push(")");
+        push(node.left, Binding::sum);
+        push("(");
+        if (!primes.empty())
+            push(primes);
+        push(name);
+    }
+
     void print(NodeIndex index, Binding least) {
         if (binding(index) < least) {
             text_ += '(';
@@ -111,11 +121,14 @@ private:
             push(node.left, Binding::product);
             push("-");
             break;
+        case Operation::lookup: {
+            const auto [table, derivative] = Graph::lookup_of(node);
+            push_call(node, graph_.tables()[table]->name(),
+                      std::string_view("'''").substr(0, static_cast<std::size_t>(derivative)));
+            break;
+        }
         default:
-            push(")");
-            push(node.left, Binding::sum);
-            push("(");
-            push(function_name(node.operation));
+            push_call(node, function_name(node.operation), "");
         }
     }
 
@@ -136,7 +149,11 @@ double text_length(const Expression& expression) {
         else if (node.operation == Operation::number)
             lengths[position] = 24;
         else
-            lengths[position] = 6 + lengths[item.left] + (arity(node.operation) == 2 ? lengths[item.right] : 0);
+            lengths[position] =
+                (node.operation == Operation::lookup
+                     ? static_cast<double>(part.graph->tables()[Graph::lookup_of(node).table]->name().size() + 5)
+                     : 6) +
+                lengths[item.left] + (arity(node.operation) == 2 ? lengths[item.right] : 0);
     }
     return lengths.back();
 }

@@ -154,7 +154,7 @@ std::vector<Expression> substitute(std::span<const Expression> expressions, std:
         if (left == node.left && right == node.right)
             results[position] = item.index;
         else if (operands == 1)
-            results[position] = part.graph->apply(node.operation, Expression(part.graph, left)).index();
+            results[position] = part.graph->apply_as(*part.graph, node, Expression(part.graph, left)).index();
         else
             results[position] =
                 part.graph->apply(node.operation, Expression(part.graph, left), Expression(part.graph, right)).index();

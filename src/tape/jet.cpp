@@ -2,12 +2,16 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
+#include "graze/symbolic/function.hpp"
+#include "graze/symbolic/piece_table.hpp"
 #include "tape/aligned_numbers.hpp"
 #include "tape/kernel_program.hpp"
 #include "tape/tape_analysis.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -118,6 +122,7 @@ private:
     template <class Run>
     void run_deferred(std::span<const std::uint32_t> groups, Run&& run);
     void set_states(std::span<const double> states);
+    void look_up();
     bool has_states(std::span<const double> states) const;
     void sort_series(const Tape& tape);
 
@@ -145,6 +150,9 @@ private:
     std::vector<std::size_t> compared_indices_;              ///< indices of those states
     EndComparison comparison_{};                             ///< refers to these three
     std::vector<int> degrees_;                               ///< of states, at least 1
+    std::vector<Tape::Piece> pieces_;
+    Function piece_arguments_;
+    std::vector<double> inputs_, arguments_now_, work_; ///< of the tables that are looked up
 };
 
 TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
@@ -197,6 +205,11 @@ TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
     for (const std::uint32_t index : guards.quotients)
         quotients_.push_back({register_at(index), layout_.number});
     guards_ = {arguments_.data(), arguments_.size(), quotients_.data(), quotients_.size()};
+    pieces_ = tape.pieces;
+    piece_arguments_ = tape.piece_arguments;
+    inputs_.resize(states_ + parameters_);
+    arguments_now_.resize(pieces_.size());
+    work_.resize(piece_arguments_.workspace());
     sort_series(tape);
     find_constants(tape, table);
     compute_constants();
@@ -285,6 +298,32 @@ void TapeJet::set_states(std::span<const double> states) {
     }
 }
 
+/// Sets the constants of the pieces to which the present states belong.
+void TapeJet::look_up() {
+    bool changed = false;
+    for (std::size_t lane = 0; lane < layout_.number; ++lane) {
+        for (std::size_t i = 0; i < states_; ++i)
+            inputs_[i] = state(i)[lane];
+        for (std::size_t j = 0; j < parameters_; ++j)
+            inputs_[states_ + j] = memory_.data()[j * layout_.number + lane];
+        piece_arguments_.evaluate(inputs_, arguments_now_, work_);
+        for (std::size_t p = 0; p < pieces_.size(); ++p) {
+            const PieceTable::Piece piece = pieces_[p].table->piece_at(arguments_now_[p]);
+            double* to = memory_.data() + pieces_[p].first * layout_.number + lane;
+            const auto set = [&](double value) {
+                changed |= std::bit_cast<std::uint64_t>(*to) != std::bit_cast<std::uint64_t>(value);
+                *to = value;
+                to += layout_.number;
+            };
+            set(piece.knot);
+            for (int k = 0; k <= pieces_[p].table->degree(); ++k)
+                set(piece.coefficients[static_cast<std::size_t>(k)]);
+        }
+    }
+    if (changed)
+        compute_constants();
+}
+
 bool TapeJet::has_states(std::span<const double> states) const {
     const double* here = memory_.data() + layout_.registers;
     if (layout_.number == 1) {
@@ -313,6 +352,8 @@ void TapeJet::begin(std::span<const double> states) {
     if (progress_.front() == Progress::begun && states.size() == states_ * layout_.number && has_states(states))
         return;
     set_states(states);
+    if (!pieces_.empty())
+        look_up();
     programs_.front().begin();
     std::ranges::fill(progress_, Progress::none);
     progress_.front() = Progress::begun;

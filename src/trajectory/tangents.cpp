@@ -81,6 +81,16 @@ void Tangents::coefficient(std::size_t mode, std::span<const double> state, std:
 
 void Tangents::advance(std::size_t mode, std::span<const double> state, double s, std::size_t watched,
                        std::span<double> row) {
+    if (std::exchange(crosses_knot_, false)) {
+        Jet& next = begin(mode, state);
+        steps_.cross(s, next_);
+        matrix_.swap(next_);
+        if (!row.empty()) {
+            next.begin(steps_.state());
+            steps_.event_at_end(next, matrix_, watched, row);
+        }
+        return;
+    }
     // In parts, if derivatives are faster than the states.
     for (int part = 0; part < TangentSteps::most_parts; ++part) {
         Jet& next = begin(mode, state);

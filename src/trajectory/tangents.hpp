@@ -34,6 +34,9 @@ public:
         next_jet_ = next;
     }
 
+    /// Says whether the next call of `advance` passes a knot of a table, in a step as short as round-off.
+    void cross_knot(bool crosses) { crosses_knot_ = crosses; }
+
     /// Computes derivatives of coefficient k (at most 2) of a watched event's function at the start of the arc.
     void coefficient(std::size_t mode, std::span<const double> state, std::size_t watched, std::size_t k,
                      std::span<double> row);
@@ -70,6 +73,7 @@ private:
     Jet *jet_ = nullptr, *next_jet_ = nullptr; ///< the trajectory's jets, while they are at its state
     std::unique_ptr<ModeJets> jets_;           ///< own jets, used without those of the trajectory
     std::unique_ptr<ModeFlow> flow_;           ///< made when a root is left
+    bool crosses_knot_ = false;
     bool valid_ = true;
 };
 

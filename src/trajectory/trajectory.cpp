@@ -1,6 +1,7 @@
 #include "graze/trajectory/trajectory.hpp"
 
 #include "flow/cyclic.hpp"
+#include "flow/table_steps.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 #include "graze/flow/mode_flow.hpp"
@@ -32,16 +33,22 @@ Trajectory::Trajectory(const Simulation& simulation, std::span<const double> par
       order_(simulation.order()), longest_allowed_(simulation.options().largest_step) {
     const System& compiled = simulation.system();
     require_size(parameters_.size(), compiled.parameters(), "independent parameters");
-    std::size_t most_watched = 0;
-    for (std::size_t m = 0; m < compiled.model().modes.size(); ++m)
+    std::size_t most_watched = 0, most_tables = 0;
+    for (std::size_t m = 0; m < compiled.model().modes.size(); ++m) {
         most_watched = std::max(most_watched, compiled.mode(m).watched.size());
+        most_tables = std::max(most_tables, compiled.mode(m).tables.size());
+    }
+    if (most_tables > 0) {
+        table_steps_ = std::make_unique<TableSteps>(compiled, order_);
+        table_steps_->set_parameters(parameters_);
+    }
     state_.resize(states_);
     before_.resize(states_);
     after_.resize(states_);
     inputs_.resize(states_ + parameters_.size());
     work_.resize(2 * compiled.workspace() + simulation.phase_values().workspace());
     std::copy(parameters_.begin(), parameters_.end(), inputs_.begin() + static_cast<std::ptrdiff_t>(states_));
-    lane_series_.resize(states_ + most_watched + compiled.observed());
+    lane_series_.resize(states_ + most_watched + compiled.observed() + most_tables);
     watches_.resize(most_watched);
     together_.reserve(most_watched);
     histories_.resize(compiled.model().events.size());
@@ -227,7 +234,12 @@ double Trajectory::propose(const Jet& jet, double step, std::size_t lane) {
         jet.guard_steps(guarded_);
         proposed_ = guarded_[lane];
     }
-    return std::min(longest_allowed_ > 0 ? std::min(proposed_, longest_allowed_) : proposed_, std::max(remaining, 0.0));
+    const double longest =
+        std::min(longest_allowed_ > 0 ? std::min(proposed_, longest_allowed_) : proposed_, std::max(remaining, 0.0));
+    const double limited = table_steps_ ? table_steps_->limit(mode_, series_, longest) : longest;
+    if (std::isnan(limited)) // beyond the end of a table
+        proposed_ = limited;
+    return limited;
 }
 
 /// Steps that keep shrinking lead to a singularity, or to a multiple zero of a state or event function that they
@@ -302,11 +314,14 @@ void Trajectory::advance(const StepPreview& preview, std::size_t lane) {
         Jet* const jet = preview.jet();
         const bool usable = jet != nullptr && jet->width() == 1 && jet->deferred_count() > 0;
         tangents_->use(usable ? jet : nullptr, preview.next());
+        tangents_->cross_knot(table_steps_ && table_steps_->crosses());
     }
     double step = preview.length(lane);
     const std::size_t jumping = limit_to_branch(step);
     const double limited = step;
-    if (step > 0 && !check_step(step, preview, lane)) {
+    // A step as short as round-off that passes a knot agrees no better than that.
+    const bool crosses_knot = table_steps_ && table_steps_->crosses();
+    if (step > 0 && !crosses_knot && !check_step(step, preview, lane)) {
         announce_contact();
         return finish_unresolved();
     }

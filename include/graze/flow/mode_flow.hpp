@@ -16,6 +16,7 @@
 
 namespace graze {
 
+class TableSteps;
 class UniformisedFlow;
 
 /// The smooth flow of one mode over a given time, which may be negative; events do not end it. Multiple shooting uses
@@ -101,6 +102,8 @@ private:
     std::vector<double> matrix_, next_; ///< states x directions, row by row
     double previous_ = 0;
     std::size_t steps_ = 0;
+    bool at_knot_ = false, crosses_knot_ = false; ///< whether a table ends the present step: see TableSteps
+    std::unique_ptr<TableSteps> table_steps_;
     std::unique_ptr<UniformisedFlow> uniformised_; ///< made when first needed
     double tolerance_;
     int order_;

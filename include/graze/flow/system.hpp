@@ -3,6 +3,7 @@
 #include "graze/base/require.hpp"
 #include "graze/model/model.hpp"
 #include "graze/symbolic/function.hpp"
+#include "graze/symbolic/piece_table.hpp"
 #include "graze/tape/tape.hpp"
 
 #include <cstddef>
@@ -51,7 +52,8 @@ public:
         Function values;
     };
     struct CompiledMode {
-        Tape tape; ///< outputs: the watched events in their order, then the observed expressions
+        /// Outputs: the watched events in their order, then the observed expressions, then the arguments of tables.
+        Tape tape;
         /// The vector field alone. Powers whose argument is the function of an event of the mode are 0 beyond the
         /// event.
         Function rates;
@@ -64,7 +66,9 @@ public:
         bool polynomial = false;              ///< all series are finite: steps of any length are exact
         bool ends_at_root = false;            ///< the argument of a root or power is the function of an event
         bool has_roots = false;               ///< the rates contain sqrt or non-integer powers, which branch at zero
-        Function roots;                       ///< for each of these: its radicand (base), and the exponent
+        std::vector<std::shared_ptr<const PieceTable>> tables; ///< that rates and outputs look up
+        Function table_arguments;                              ///< of each of them
+        Function roots; ///< for each of these: its radicand (base), and the exponent
     };
     /// A map of states. Stored for the states that it changes; all others stay, with the derivatives of the identity.
     struct CompiledJump {

@@ -53,7 +53,9 @@ public:
     /// @param after the matrix at the end; @param end the state at the end of the whole step, if known
     /// @return the length of the part
     double carry(Jet& next, double length, std::span<double> after, std::span<const double> end = {});
-    /// Returns the state at the end of the last `carry`.
+    /// Propagates all directions along a step as short as round-off, whatever the rates at its end.
+    void cross(double length, std::span<double> after);
+    /// Returns the state at the end of the last `carry` or `cross`.
     std::span<const double> state() const { return state_; }
 
     /// Computes the derivatives of a watched event's function at the end of the last `carry`; `next` and `after` as it

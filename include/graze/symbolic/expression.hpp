@@ -14,6 +14,7 @@
 namespace graze {
 
 class Expression;
+class PieceTable;
 
 /// The elementary operations of which every expression is made. `number` and `symbol` are leaves.
 enum class Operation : std::uint8_t {
@@ -38,6 +39,7 @@ enum class Operation : std::uint8_t {
     cosh,
     tanh,
     erf,
+    lookup, ///< a table, or one of its derivatives, at its operand
 };
 
 /// Returns the number of operands: 0 for leaves, 1 for functions and negation, 2 for arithmetic.
@@ -51,7 +53,7 @@ using NodeIndex = std::uint32_t;
 struct Node {
     Operation operation = Operation::number;
     NodeIndex left = 0;  ///< first operand; for a symbol, the index of its name
-    NodeIndex right = 0; ///< second operand of arithmetic operations
+    NodeIndex right = 0; ///< second operand of arithmetic operations; of a lookup, which table and derivative
     double value = 0;    ///< of a number
 };
 
@@ -79,6 +81,24 @@ public:
     Expression apply(Operation operation, const Expression& operand);
     Expression apply(Operation operation, const Expression& left, const Expression& right);
 
+    /// Applies the operation with one operand of a node of another graph, or of this one.
+    Expression apply_as(const Graph& from, const Node& node, const Expression& operand);
+
+    using Tables = std::vector<std::shared_ptr<const PieceTable>>;
+    /// Tables that expressions may look up, by name.
+    const Tables& tables() const { return tables_; }
+    /// Adds a table, unless an equal one is there. @return its index
+    /// @throws InputError if another table has its name
+    std::size_t add_table(std::shared_ptr<const PieceTable> table);
+    /// Returns the value of a table, or of its derivative, at an operand.
+    Expression look_up(std::size_t table, int derivative, const Expression& operand);
+    /// The table that a lookup uses, and the derivative.
+    struct Lookup {
+        std::size_t table;
+        int derivative;
+    };
+    static Lookup lookup_of(const Node& node) { return {node.right / 4, static_cast<int>(node.right % 4)}; }
+
     std::size_t size() const { return nodes_.size(); }
     /// @throws InputError, here and below, when the graph has no such index
     const Node& node(NodeIndex index) const {
@@ -103,6 +123,7 @@ private:
     void require_growing() const;
     NodeIndex intern(Node node);
     NodeIndex own(const Expression& expression) const;
+    NodeIndex own_lookup(const Graph& from, const Node& node);
 
     struct Hash {
         std::size_t operator()(const Node& node) const;
@@ -113,6 +134,7 @@ private:
     std::vector<Node> nodes_;
     std::vector<bool> undefined_;
     std::vector<std::string> names_;
+    Tables tables_;
     std::unordered_map<std::string, NodeIndex> name_indices_;
     std::unordered_map<Node, NodeIndex, Hash, Equal> indices_;
     bool frozen_ = false;

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -74,10 +75,16 @@ public:
     std::vector<double> operator()(std::span<const double> inputs) const;
 
 private:
+    /// `right` of a lookup: 4 times the index of its table, plus the derivative.
     struct Step {
         Operation operation;
         std::uint32_t result, left, right;
     };
+    const PieceTable& table_of(const Step& step) const { return *tables_[step.right / 4]; }
+    static int derivative_of(const Step& step) { return static_cast<int>(step.right % 4); }
+    std::uint32_t look_up(const Graph& graph, const Node& node);
+    double error_of(const Step& step, double value, double left, double left_error, double right,
+                    double right_error) const;
     void compile(const SymbolIndex& inputs, std::span<const Expression> outputs);
     template <class Number>
     void take_inputs(std::span<const Number> inputs, std::span<Number> slots) const;
@@ -92,8 +99,9 @@ private:
     bool uses_all_ = true;
     std::vector<std::pair<std::uint32_t, double>> numbers_;
     std::vector<Step> steps_;
-    std::vector<std::uint32_t> outputs_; ///< slots of the outputs that are given
-    std::vector<std::uint32_t> places_;  ///< their indices among all outputs; empty if all are given
+    std::vector<std::shared_ptr<const PieceTable>> tables_; ///< that are looked up
+    std::vector<std::uint32_t> outputs_;                    ///< slots of the outputs that are given
+    std::vector<std::uint32_t> places_;                     ///< their indices among all outputs; empty if all are given
 };
 
 /// Returns the value of an expression without symbols; NaN outside an operation's domain.

@@ -1,9 +1,12 @@
 #pragma once
 
 #include "graze/symbolic/expression.hpp"
+#include "graze/symbolic/function.hpp"
+#include "graze/symbolic/piece_table.hpp"
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -62,6 +65,14 @@ struct Tape {
     std::uint32_t parameters = 0; ///< constants 0 .. parameters-1 are the parameters
     std::uint32_t registers = 0;  ///< number of registers, each holds a series
     std::uint32_t constants = 0;  ///< number of constants: parameters, literals, results of `constant_code`
+    /// The numbers of a table's piece: constants that a jet sets when it is given states. The knot, which is the
+    /// constant at `first`, then the coefficients.
+    struct Piece {
+        std::shared_ptr<const PieceTable> table;
+        std::uint32_t first = 0;
+    };
+    std::vector<Piece> pieces; ///< their constants follow the parameters
+    Function piece_arguments;  ///< where each table is looked up, as a function of states and parameters
     std::vector<std::pair<std::uint32_t, double>> literals; ///< constant, value
     std::vector<ConstantInstruction> constant_code;
     std::vector<Instruction> code;

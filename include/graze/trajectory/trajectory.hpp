@@ -22,6 +22,7 @@ namespace graze {
 
 class ModeFlow;
 class ProbeTracker;
+class TableSteps;
 class Tangents;
 
 /// One trajectory of a hybrid system, as a state machine that receives the jets of its present state one at a time. The
@@ -227,7 +228,8 @@ private:
     RootFinder roots_;
     std::unique_ptr<ProbeTracker> probes_;
     std::unique_ptr<Tangents> tangents_;
-    std::unique_ptr<ModeFlow> leaving_; ///< made when the zero of a radicand is left
+    std::unique_ptr<TableSteps> table_steps_; ///< null if no mode looks up a table
+    std::unique_ptr<ModeFlow> leaving_;       ///< made when the zero of a radicand is left
     std::size_t states_ = 0;
     int order_ = 0;
 
