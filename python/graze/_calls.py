@@ -42,7 +42,7 @@ def compiled_model(source: Any, called: str) -> Any:
 
 def separated(kind: str, along: Along, keys: Dict[str, Any], model: Any, called: str) -> Tuple[Along, Dict[str, Any]]:
     """Separates parameters that are followed, given as keyword arguments, from the keys of a run."""
-    known, parameters = keys_of(kind), [one["name"] for one in model.parameters] + list(model.conserved)
+    known, parameters = keys_of(kind), [one["name"] for one in model.parameters] + [name for name, *_ in model.conserved]
     followed: Dict[str, Any] = dict(along) if isinstance(along, Mapping) else {}
     rest: Dict[str, Any] = {}
     for name, value in keys.items():

@@ -73,9 +73,16 @@ ContactMechanics::ContactMechanics(Model& model, const Places& places, SurfaceMo
       mass_(motion.expanded(model.contact_settings.mass)), field_(motion.expanded(model.modes[mode].rates)) {
     for (const std::size_t state : velocities_)
         symbols_.push_back(model.symbol(model.states[state].name));
+    require_positive_masses();
     for (const UnilateralContact& contact : model.contacts) {
         const std::string path = "contacts." + contact.name;
         gaps_.push_back(motion.expanded(contact.gap));
+        for (std::size_t i = 0; i < symbols_.size(); ++i)
+            if (!differentiate(gaps_.back(), symbols_[i]).is_number(0))
+                throw InputError(places.of(path + ".gap"),
+                                 fmt::format("the gap of '{}' depends on the velocity '{}', which impulses change",
+                                             contact.name, model.states[velocities_[i]].name),
+                                 "give it in terms of positions");
         normal_.push_back(direction_of(motion.rate_along(gaps_.back(), field_), path + ".gap",
                                        fmt::format("the rate of the gap of '{}'", contact.name)));
         friction_.push_back(contact.friction ? motion.expanded(*contact.friction) : model.number(0));
@@ -85,6 +92,27 @@ ContactMechanics::ContactMechanics(Model& model, const Places& places, SurfaceMo
                                         fmt::format("the slip of '{}'", contact.name));
     }
     note_products();
+}
+
+/// Pivots of Gauss' elimination of a positive definite matrix are positive.
+void ContactMechanics::require_positive_masses() const {
+    const std::size_t n = velocities_.size();
+    const std::vector<double> mass = values_at_start(model_, mass_);
+    if (std::ranges::any_of(mass, [](double value) { return !std::isfinite(value); }))
+        return; // `validate` tells what is wrong with the initial state
+    std::vector<double> a(n * n, 0.0);
+    for (std::size_t i = 0; i < mass.size(); ++i)
+        a[mass.size() == n ? i * (n + 1) : i] = mass[i];
+    bool positive = true;
+    for (std::size_t k = 0; k < n && positive; ++k) {
+        positive = a[k * n + k] > 0;
+        for (std::size_t i = k + 1; i < n && positive; ++i)
+            for (std::size_t j = n; j-- > k;)
+                a[i * n + j] -= a[i * n + k] / a[k * n + k] * a[k * n + j];
+    }
+    if (!positive)
+        throw InputError(places_.of("contacts.mass"), "the mass matrix is not positive definite at the initial state",
+                         "give masses and moments of inertia, which are positive");
 }
 
 ContactDirection ContactMechanics::direction_of(const Expression& velocity, const std::string& path,

@@ -87,6 +87,7 @@ private:
     void require_linear(const ContactDirection& direction, const std::string& path, const std::string& what) const;
     ContactDirection direction_of(const Expression& velocity, const std::string& path, const std::string& what) const;
     Expression same_direction(const ContactDirection& one, const ContactDirection& other) const;
+    void require_positive_masses() const;
     void note_products();
     bool independent(const std::vector<std::size_t>& directions) const;
 

@@ -8,6 +8,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 namespace graze {
 
@@ -60,6 +62,25 @@ private:
     std::vector<std::vector<std::string>> rows_;
 };
 
+/// Laws of contacts make transitions with an alternative for each set of contacts that stay closed.
+bool has_many_outcomes(const Transition& transition) {
+    constexpr std::size_t most = 3;
+    return transition.derived && transition.next.size() > most;
+}
+
+/// The modes that may follow, without the conditions, which `--format csv` tells.
+std::string outcomes_text(const Model& model, const Transition& transition) {
+    std::vector<std::string> modes;
+    for (const Alternative& alternative : transition.next) {
+        const std::string mode = alternative.mode ? model.modes[*alternative.mode].name : "the end";
+        if (std::ranges::find(modes, mode) == modes.end())
+            modes.push_back(mode);
+    }
+    return fmt::format("{}: {} -> {}", model.modes[transition.mode].name, model.events[transition.event].name,
+                       modes.size() > 3 ? fmt::format("one of {} modes", modes.size())
+                                        : fmt::format("{}", fmt::join(modes, " or ")));
+}
+
 } // namespace
 
 std::string model_listing(const Model& model) {
@@ -85,7 +106,7 @@ std::string model_listing(const Model& model) {
     listing.heading(model.transitions.size(), "transition (mode: event / jump -> next mode)",
                     "transitions (mode: event / jump -> next mode)");
     for (const Transition& item : model.transitions)
-        listing.row({item.label, transition_text(model, item)});
+        listing.row({item.label, has_many_outcomes(item) ? outcomes_text(model, item) : transition_text(model, item)});
     listing.heading(model.slides.size(), "slide", "slides");
     for (const Slide& item : model.slides) {
         listing.row({item.name, slide_text(model, item), item.text});

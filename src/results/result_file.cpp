@@ -32,7 +32,9 @@ void require_names(const RunRecord& run, const std::string& path) {
     if (!run_kind(run.kind))
         throw InputError(place, fmt::format("run '{}' is of unknown kind '{}'", run.name, run.kind),
                          "use the version of graze that wrote it");
-    if (((run.is_swept() || run.is_followed()) && run.coordinates.empty()) ||
+    // A family of orbits is followed along a quantity, in a model that may have no parameters.
+    const bool may_be_family = run.kind == name_of(RunKind::follow);
+    if (((run.is_swept() || run.is_followed()) && run.coordinates.empty() && !may_be_family) ||
         (!run.is_branch() && run.directions.empty()))
         throw_contradiction(path, fmt::format("run '{}' varies nothing", run.name));
     require_plain_line(run.model_name, "name of a model", place);

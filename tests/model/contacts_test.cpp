@@ -186,7 +186,13 @@ TEST(ContactDeclarations, TellMistakes) {
         "places");
     expect(with(corner, "slip = \"u\"\n", ""),
            "m.toml:15:11: contacts.floor has no velocity along the surface; add slip = ...");
-    expect(with(corner, "gap = \"x\"", "gap = \"u\""),
+    expect(with(corner, "mass = [1, 2]", "mass = [1, 0]"),
+           "m.toml:14:8: the mass matrix is not positive definite at the initial state; give masses and moments of "
+           "inertia, which are positive");
+    expect(with(corner, "gap = \"x\"", "gap = \"x + u\""),
+           "m.toml:21:7: the gap of 'wall' depends on the velocity 'u', which impulses change; give it in terms of "
+           "positions");
+    expect(with(corner, "gap = \"x\"", "gap = \"1 + 1\""),
            "m.toml:21:7: the rate of the gap of 'wall' does not depend on a velocity; name in `velocities` the states "
            "that "
            "impulses change, and give the gap in terms of positions whose rates contain them");
