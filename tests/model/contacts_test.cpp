@@ -187,7 +187,7 @@ TEST(ContactDeclarations, TellMistakes) {
     expect(with(corner, "slip = \"u\"\n", ""),
            "m.toml:15:11: contacts.floor has no velocity along the surface; add slip = ...");
     expect(with(corner, "mass = [1, 2]", "mass = [1, 0]"),
-           "m.toml:14:8: the mass matrix is not positive definite at the initial state; give masses and moments of "
+           "m.toml:14:1: the mass matrix is not positive definite at the initial state; give masses and moments of "
            "inertia, which are positive");
     expect(with(corner, "gap = \"x\"", "gap = \"x + u\""),
            "m.toml:21:7: the gap of 'wall' depends on the velocity 'u', which impulses change; give it in terms of "
