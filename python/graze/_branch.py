@@ -100,7 +100,7 @@ class Branch(Run):
         import json
 
         names = [name for name, _ in self._record["coordinates"]]
-        family = json.loads(self._record["settings"]).get("family")
+        family = json.loads(self._record["settings"])["branch"].get("family")
         return names if family is None or self._record["kind"] == "curve" else [family or "period", *names]
 
     @property

@@ -26,15 +26,15 @@ def test_a_family_is_followed_along_its_energy():
     assert model.conserved == ("energy",)
     branch = graze.follow(model, energy=(-0.95, 0.9), signature="turn")
     assert branch.parameter == "energy"
-    for energy, period in zip(branch["energy"], branch["period"]):
+    for energy, period in zip(branch.points["energy"], branch.points["period"]):
         assert period == pytest.approx(period_of(energy), rel=1e-10)
-    assert min(branch["energy"]) == pytest.approx(-0.95, abs=1e-11)
-    assert max(branch["energy"]) == pytest.approx(0.9, abs=1e-11)
+    assert min(branch.points["energy"]) == pytest.approx(-0.95, abs=1e-11)
+    assert max(branch.points["energy"]) == pytest.approx(0.9, abs=1e-11)
 
 
 def test_a_family_is_followed_along_its_period():
     branch = graze.follow(pendulum(), along={"period": (6.35, 9)}, signature="turn", direction="up")
-    assert max(branch["period"]) == pytest.approx(9, abs=1e-10)
+    assert max(branch.points["period"]) == pytest.approx(9, abs=1e-10)
 
 
 def test_names_are_told():
@@ -52,7 +52,7 @@ def test_modes_may_have_expressions_of_their_own():
                                      graze.Transition("leave", mode="ground", next="air", label="leave")],
                         conserved={"energy": graze.Conserved(v**2/2 + y, modes={"ground": v**2/2 + y + 25*y**2})})
     branch = graze.follow(model, energy=(0.5, 2), signature="land leave")
-    for energy, period in zip(branch["energy"], branch["period"]):
+    for energy, period in zip(branch.points["energy"], branch.points["period"]):
         omega, fall = math.sqrt(50), math.sqrt(2 * energy)
         stay = (math.pi + 2 * math.atan(1 / (omega * fall))) / omega
         assert period == pytest.approx(2 * fall + stay, rel=1e-9)
