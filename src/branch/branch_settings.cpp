@@ -11,6 +11,10 @@
 
 namespace graze {
 
+std::size_t BranchSettings::fixed_monitors() const {
+    return static_cast<std::size_t>(std::ranges::count(monitors, true, &Monitor::fixed));
+}
+
 void BranchSettings::validate_orbit(const Model& model) const {
     orbit.validate();
     for (const Monitor& monitor : monitors) {
@@ -72,8 +76,7 @@ void BranchSettings::validate(const Model& model) const {
         throw InputError("a bound of the branch is not a number", "give a number, or none");
     if (least && greatest && !(*least < *greatest))
         throw InputError("the branch's bounds leave no room", "give the smaller one first");
-    const auto held = static_cast<std::size_t>(
-        std::count_if(monitors.begin(), monitors.end(), [](const Monitor& monitor) { return monitor.fixed; }));
+    const std::size_t held = fixed_monitors();
     if (kept && !kind_of(kept->type).may_be_kept)
         throw InputError(fmt::format("points of type {} ({}) cannot be followed as a curve", short_name(kept->type),
                                      name_of(kept->type)),
@@ -83,7 +86,7 @@ void BranchSettings::validate(const Model& model) const {
                                      short_name(*kept_too)),
                          "hold a vanishing sensitivity (VS) besides a touch within an arc (GR)");
     // Along families parameters are added that take the place of `free` ones.
-    const std::size_t conditions = held + (kept ? 1U : 0U) + (kept_too ? 1U : 0U);
+    const std::size_t conditions = this->conditions();
     const std::size_t added = unfolded > 0 ? 0 : std::max(model.conserved.size(), family && kept ? std::size_t{1} : 0);
     const bool fits =
         unfolded > 0 ? conditions <= free.size() : conditions >= free.size() && conditions <= free.size() + added;

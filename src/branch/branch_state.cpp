@@ -93,7 +93,7 @@ void BranchState::hold_monitors() {
 void BranchState::hold_neutral_directions() {
     if (settings_.unfolded == 0)
         return;
-    const std::size_t others = fixed_monitors() + kept_conditions();
+    const std::size_t others = settings_.fixed_monitors() + kept_conditions();
     held_.resize(others);
     const std::size_t count = settings_.free.size() - others;
     for (std::size_t i = 0; i < count; ++i)
@@ -110,7 +110,7 @@ bool BranchState::hold_kept(const Orbit& orbit) {
     std::unique_ptr<OrbitCondition> condition;
     if (rule_of(kept.type).condition && problem_->evaluate(problem_->unknowns_of(orbit)))
         condition = rule_of(kept.type).condition(problem_->equations(), problem_->evaluation(), kept);
-    held_.resize(fixed_monitors());
+    held_.resize(settings_.fixed_monitors());
     if (!condition)
         return false;
     held_.push_back(std::move(condition));
@@ -118,10 +118,6 @@ bool BranchState::hold_kept(const Orbit& orbit) {
         return true;
     held_.push_back(SensitivityCondition::of_touch(problem_->equations(), problem_->evaluation(), kept));
     return held_.back() != nullptr;
-}
-
-std::size_t BranchState::fixed_monitors() const {
-    return static_cast<std::size_t>(std::ranges::count(settings_.monitors, true, &Monitor::fixed));
 }
 
 std::size_t BranchState::kept_conditions() const {
@@ -218,7 +214,7 @@ std::optional<DescribedPoint> BranchState::describe(const ContinuationPoint& at)
     result.stable = is_stable(result.solution);
     std::vector<Degeneracy> degeneracies;
     if (settings_.kept && !keeps_branch_point())
-        degeneracies = held_[fixed_monitors() + kept_conditions() - 1]->degeneracies(equations, evaluation);
+        degeneracies = held_[settings_.fixed_monitors() + kept_conditions() - 1]->degeneracies(equations, evaluation);
     const auto rise = rise_of_family(true);
     std::vector<BranchTest> tests = branch_tests({equations, evaluation, result.solution, at.tangent, at.determinant,
                                                   result.monitors, settings_, degeneracies, rise ? &*rise : nullptr});
@@ -345,7 +341,7 @@ bool BranchState::restart(const Orbit& orbit, const OrbitDirection& direction, d
     const std::optional<SpecialPoint> kept = settings_.kept;
     std::shared_ptr<OrbitProblem> old = std::move(problem_);
     std::unique_ptr<Continuation> old_continuation = std::move(continuation_);
-    const auto first = held_.begin() + static_cast<std::ptrdiff_t>(fixed_monitors());
+    const auto first = held_.begin() + static_cast<std::ptrdiff_t>(settings_.fixed_monitors());
     std::vector<std::unique_ptr<OrbitCondition>> old_kept(std::make_move_iterator(first),
                                                           std::make_move_iterator(held_.end()));
     held_.erase(first, held_.end());
@@ -357,7 +353,7 @@ bool BranchState::restart(const Orbit& orbit, const OrbitDirection& direction, d
         continuation_ = std::move(old_continuation);
         settings_.kept = kept;
         if (settings_.kept || !old_kept.empty()) {
-            held_.resize(fixed_monitors());
+            held_.resize(settings_.fixed_monitors());
             std::move(old_kept.begin(), old_kept.end(), std::back_inserter(held_));
             problem_->hold(held_);
         }

@@ -99,7 +99,6 @@ private:
     bool keeps_branch_point() const { return settings_.kept && settings_.kept->type == PointType::branch_point; }
     bool hold_kept(const Orbit& orbit);
     void hold_neutral_directions();
-    std::size_t fixed_monitors() const;
     std::size_t kept_conditions() const;
     void update_kept_time(const OrbitSolution& solution);
     bool find_touch(const Orbit& orbit);

@@ -14,13 +14,15 @@ public:
 
     /// One value per monitor; 0 for durations, NaN for multipliers.
     std::vector<double> operator()(const Orbit& orbit) const;
-    /// Value of a monitor's expression, then its derivatives with respect to states and parameters.
-    const Function& function(std::size_t monitor) const { return functions_[monitor]; }
+    /// Value of a monitor's expression in a mode, then its derivatives with respect to states and parameters.
+    const Function& function(std::size_t monitor, std::size_t mode) const {
+        const std::vector<Function>& own = functions_[monitor];
+        return own[own.size() > 1 ? mode : 0];
+    }
 
 private:
-    System system_;
     std::vector<Monitor> monitors_;
-    std::vector<Function> functions_; ///< empty for durations and multipliers
+    std::vector<std::vector<Function>> functions_; ///< of each: one, or one a mode; none for durations and multipliers
 };
 
 } // namespace graze

@@ -92,9 +92,10 @@ void EquilibriumPath::hold(const EquilibriumEvaluation& at) {
         Monitor& monitor = settings_.monitors[m];
         if (!monitor.fixed)
             continue;
+        const Function& function = monitors_.function(m, problem_->equations().mode());
         if (!monitor.held)
-            monitor.held = monitors_.function(m)(concatenated(at.state, at.parameters))[0];
-        problem_->hold(std::make_unique<HeldFunction>(monitors_.function(m), *monitor.held, at));
+            monitor.held = function(concatenated(at.state, at.parameters))[0];
+        problem_->hold(std::make_unique<HeldFunction>(function, *monitor.held, at));
     }
     if (!settings_.kept)
         return;

@@ -87,16 +87,22 @@ Eigen::VectorXd values_at(const Model& model, const Unfolding& unfolding, const 
     return result;
 }
 
-/// Returns the unfoldings by those declared quantities that are independent of each other along an orbit. The named
-/// one comes first.
-std::vector<Unfolding> independent_unfoldings(Model& model, const Orbit& orbit, const std::string& first) {
-    constexpr double dependent = 1e-6;
+/// Returns the unfoldings by all declared quantities. The named one comes first.
+std::vector<Unfolding> unfoldings_by_conserved(Model& model, const std::string& first) {
     std::vector<ConservedQuantity> order = model.conserved;
     std::stable_partition(order.begin(), order.end(), [&](const ConservedQuantity& one) { return one.name == first; });
     std::vector<Unfolding> result;
+    for (const ConservedQuantity& one : order)
+        result.push_back(by_gradient(model, one));
+    return result;
+}
+
+/// Returns those that are independent of the earlier ones along an orbit.
+std::vector<Unfolding> independent(const Model& model, const std::vector<Unfolding>& all, const Orbit& orbit) {
+    constexpr double dependent = 1e-6;
+    std::vector<Unfolding> result;
     std::vector<Eigen::VectorXd> directions;
-    for (const ConservedQuantity& one : order) {
-        Unfolding unfolding = by_gradient(model, one);
+    for (const Unfolding& unfolding : all) {
         Eigen::VectorXd direction = values_at(model, unfolding, orbit);
         const double size = direction.norm();
         for (const Eigen::VectorXd& other : directions)
@@ -104,7 +110,7 @@ std::vector<Unfolding> independent_unfoldings(Model& model, const Orbit& orbit, 
         if (!(direction.norm() > dependent * size))
             continue;
         directions.push_back(direction.normalized());
-        result.push_back(std::move(unfolding));
+        result.push_back(unfolding);
     }
     return result;
 }
@@ -145,11 +151,10 @@ std::optional<Orbit> nearest_member(const System& system, const Orbit& candidate
 
 /// Refuses settings that only a family could have.
 void require_no_family(const BranchSettings& settings) {
-    const auto held = static_cast<std::size_t>(std::ranges::count(settings.monitors, true, &Monitor::fixed));
-    if (held + (settings.kept ? 1U : 0U) + (settings.kept_too ? 1U : 0U) != settings.free.size())
+    if (settings.conditions() != settings.free.size())
         throw InputError(fmt::format("{} monitors are fixed and {} further parameters are free, and the orbit is not "
                                      "one of a family at the same parameters",
-                                     held, settings.free.size()),
+                                     settings.fixed_monitors(), settings.free.size()),
                          "free one parameter for each monitor that is fixed");
 }
 
@@ -181,15 +186,11 @@ Monitor monitor_of(const Model& model, const FamilyCoordinate& coordinate) {
     return period;
 }
 
-std::size_t held_monitors(const BranchSettings& settings) {
-    return static_cast<std::size_t>(std::ranges::count(settings.monitors, true, &Monitor::fixed));
-}
-
 /// Sets what the unfolded branch follows and holds, from what the branch of the model does.
 void complete_settings(BranchSettings& settings, const Model& model, const std::vector<ParameterId>& unfolding) {
     settings.unfolded = unfolding.size();
     settings.free.insert(settings.free.end(), unfolding.begin(), unfolding.end());
-    const std::size_t conditions = held_monitors(settings) + (settings.kept ? 1U : 0U) + (settings.kept_too ? 1U : 0U);
+    const std::size_t conditions = settings.conditions();
     if (settings.family) {
         Monitor& coordinate = settings.monitors.emplace_back(monitor_of(model, *settings.family));
         coordinate.least = settings.kept ? settings.family_least : settings.least;
@@ -210,7 +211,7 @@ void complete_settings(BranchSettings& settings, const Model& model, const std::
 /// are parameters without a condition.
 void hold_what_is_left(BranchSettings& settings, const System& system, Orbit orbit) {
     const Model& model = system.model();
-    const std::size_t conditions = held_monitors(settings) + (settings.kept ? 1U : 0U) + (settings.kept_too ? 1U : 0U);
+    const std::size_t conditions = settings.conditions();
     if (conditions >= settings.free.size())
         return;
     std::size_t left = settings.free.size() - conditions;
@@ -252,7 +253,8 @@ std::optional<Family> Family::of(const System& system, const Orbit& candidate, c
     }
     const std::string first = settings.family ? settings.family->conserved : "";
     Model model = system.model();
-    const std::size_t count = std::max(independent_unfoldings(model, candidate, first).size(), std::size_t{1});
+    const std::vector<Unfolding> all = unfoldings_by_conserved(model, first);
+    const std::size_t count = std::max(independent(model, all, candidate).size(), std::size_t{1});
     std::string detail;
     const std::optional<Orbit> start = nearest_member(system, candidate, settings.orbit, count, detail);
     if (!start) {
@@ -261,7 +263,7 @@ std::optional<Family> Family::of(const System& system, const Orbit& candidate, c
         require_no_family(settings);
         return std::nullopt;
     }
-    std::vector<Unfolding> unfoldings = independent_unfoldings(model, *start, first);
+    std::vector<Unfolding> unfoldings = independent(model, all, *start);
     if (unfoldings.empty())
         unfoldings.push_back(by_distance(model, system, *start, settings.orbit.tolerance));
     for (const Unfolding& one : unfoldings)

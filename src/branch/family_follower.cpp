@@ -23,7 +23,6 @@ public:
 private:
     bool take(bool there) {
         found_.clear();
-        ended_ = !there;
         finish(inner_->how_ended(), inner_->why_ended());
         if (!there)
             return false;

@@ -49,8 +49,7 @@ ModeFlow::ModeFlow(const System& system, double tolerance, int order, std::vecto
       tangents_(system, tolerance, directions_), allowance_{StepCheck::allowance * tolerance,
                                                             StepCheck::value_allowance * tolerance,
                                                             StepCheck::smallest_size},
-      table_steps_(std::make_unique<TableSteps>(system, order_of(tolerance, order))), tolerance_(tolerance),
-      order_(order) {
+      table_steps_(TableSteps::of(system, order_of(tolerance, order))), tolerance_(tolerance), order_(order) {
     if (directions_ > 0)
         jets_.add_tangents();
     for (const ParameterId parameter : free_)
@@ -83,7 +82,8 @@ void ModeFlow::set_parameters(std::span<const double> parameters) {
     std::copy(parameters.begin(), parameters.end(), parameters_.begin());
     jets_.set_parameters(parameters_);
     step_check_.set_parameters(parameters_);
-    table_steps_->set_parameters(parameters_);
+    if (table_steps_)
+        table_steps_->set_parameters(parameters_);
     dormant_states_.set_parameters(parameters_);
     tangents_.set_parameters(parameters_, parameter_seeds_);
     if (uniformised_)
@@ -122,7 +122,8 @@ double ModeFlow::step_of(std::size_t mode, const Jet& jet, double remaining, boo
     guarded_.assign(static_cast<std::size_t>(jet.width()), std::numeric_limits<double>::infinity());
     guarded_[0] = std::min(step, std::abs(remaining));
     jet.guard_steps(guarded_);
-    const double to_knot = table_steps_->limit(mode, all, std::copysign(guarded_[0], remaining));
+    const double allowed = std::copysign(guarded_[0], remaining),
+                 to_knot = table_steps_ ? table_steps_->limit(mode, all, allowed) : allowed;
     if (std::isnan(to_knot))
         return to_knot;
     at_knot_ = std::abs(to_knot) < guarded_[0];

@@ -270,14 +270,16 @@ std::vector<System::CompiledMode> SystemCompiler::compile_modes() {
             compiled.transitions.push_back(transition->second);
         }
         const std::vector<Expression> rates = expander_.expand(mode.rates), outputs = watched_functions(compiled);
-        const std::vector<Expression> extended = extended_rates(rates, ends_of_mode(model_, m), states_);
+        const std::vector<Expression> roots = roots_in(rates);
+        const std::vector<Expression> extended =
+            roots.empty() ? rates : extended_rates(rates, ends_of_mode(model_, m), states_);
         compiled.ends_at_root = extended != rates;
         compiled.rates = compile(inputs_, extended);
         compiled.events = compile(inputs_, outputs);
         compiled.event_gradients = compile_derivatives(inputs_, outputs, states_);
         for (const Expression& function : outputs)
             compiled.gradients.push_back(gradient_of(function));
-        compiled.roots = compile(inputs_, roots_in(rates));
+        compiled.roots = compile(inputs_, roots);
         compile_tape(compiled, rates, outputs);
         modes.push_back(std::move(compiled));
     }
@@ -318,6 +320,8 @@ LinearMode SystemCompiler::linearise(const System& system, std::size_t mode, std
 /// Adds the arguments at which tables are looked up to the outputs of a tape. @return the lookups
 std::vector<Expression> SystemCompiler::add_arguments(const std::vector<Expression>& rates,
                                                       std::vector<Expression>& outputs) {
+    if (model_.graph->tables().empty())
+        return {};
     std::vector<Expression> all = rates, lookups;
     all.insert(all.end(), outputs.begin(), outputs.end());
     const Subgraph part = subgraph_of(all);

@@ -21,6 +21,13 @@ TableSteps::TableSteps(const System& system, int order)
     : system_(system), finder_(order), inputs_(system.states() + system.parameters()), errors_(inputs_.size()),
       argument_(static_cast<std::size_t>(order) + 1), distance_(argument_.size()) {}
 
+std::unique_ptr<TableSteps> TableSteps::of(const System& system, int order) {
+    for (std::size_t mode = 0; mode < system.model().modes.size(); ++mode)
+        if (!system.mode(mode).tables.empty())
+            return std::make_unique<TableSteps>(system, order);
+    return nullptr;
+}
+
 void TableSteps::set_parameters(std::span<const double> parameters) {
     require_size(parameters.size(), system_.parameters(), "independent parameters");
     std::ranges::copy(parameters, inputs_.begin() + static_cast<std::ptrdiff_t>(system_.states()));

@@ -5,6 +5,7 @@
 #include "graze/tape/series.hpp"
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,8 @@ namespace graze {
 class TableSteps {
 public:
     TableSteps(const System& system, int order);
+    /// Returns null where no mode looks up a table.
+    static std::unique_ptr<TableSteps> of(const System& system, int order);
 
     void set_parameters(std::span<const double> parameters);
     /// Returns the length of a step of at most this length, which may be negative.

@@ -2,13 +2,18 @@
 
 #include "base/concatenated.hpp"
 #include "graze/symbolic/function.hpp"
+#include "graze/symbolic/symbol_index.hpp"
 #include "graze/symbolic/transform.hpp"
+#include "model/model_expressions.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <set>
+#include <utility>
 
 namespace graze {
 
@@ -17,16 +22,50 @@ namespace {
 /// Changes below this share of the terms of which they are made are round-off.
 constexpr double unchanged_share = 1e-9;
 
+/// Returns a state around another one. @param turn goes on with each number, so that they do not repeat
+std::vector<double> state_around(std::vector<double> state, double distance, double& turn) {
+    for (double& value : state)
+        value += distance * std::sin(turn += 2.4); // the golden angle
+    return state;
+}
+
+/// Returns all that decides on motions, but jumps, in terms of states and parameters.
+std::vector<Expression> deciding_expressions(Model& model) {
+    std::vector<Expression> result;
+    for (const Mode& mode : model.modes) {
+        result.insert(result.end(), mode.rates.begin(), mode.rates.end());
+        for (const ConservedQuantity& conserved : model.conserved)
+            if (const Expression* own = conserved_in(conserved, mode.name))
+                result.push_back(*own);
+    }
+    for (const Event& event : model.events)
+        result.push_back(event.function);
+    const auto add_all = [&](const std::vector<Condition>& when) {
+        for (const Condition& condition : when)
+            result.push_back(condition.function);
+    };
+    for (const Transition& transition : model.transitions) {
+        add_all(transition.when);
+        for (const Alternative& alternative : transition.next)
+            add_all(alternative.when);
+    }
+    for (const Section& section : model.sections)
+        if (!section.state)
+            result.push_back(section.function);
+    return model.expand(result);
+}
+
 /// Evaluates a conserved quantity at states around the initial one.
 class ConservedCheck {
 public:
     ConservedCheck(Model model, const ConservedQuantity& conserved)
-        : model_(std::move(model)), name_(conserved.name), parameters_(model_.parameter_values()),
-          initial_(model_.initial_state()) {
+        : model_(std::move(model)), name_(conserved.name), inputs_(model_.inputs()),
+          parameters_(model_.parameter_values()), initial_(model_.initial_state()) {
         for (const Mode& mode : model_.modes) {
             const Expression* own = conserved_in(conserved, mode.name);
             values_.push_back(own ? model_.expand(model_.graph->adopt(*own)) : model_.number(0));
-            compiled_.push_back(model_.function_of({&values_.back(), 1}));
+            compiled_.emplace_back(inputs_, std::span(&values_.back(), 1));
+            rates_.push_back(model_.expand(mode.rates));
         }
     }
 
@@ -53,12 +92,7 @@ private:
         double turn = 0;
         for (const double distance : {0.01, 0.3, 1.0, 3.0})
             for (int k = 0; k < states; ++k) {
-                State state;
-                for (const double value : initial_) {
-                    turn += 2.4; // the golden angle: values that do not repeat
-                    state.push_back(value + distance * std::sin(turn));
-                }
-                if (std::string text = visit(state); !text.empty())
+                if (std::string text = visit(state_around(initial_, distance, turn)); !text.empty())
                     return text;
             }
         return "";
@@ -76,11 +110,11 @@ private:
     /// The rate is a sum over states of products of a derivative and a rate, whose terms measure it.
     std::string changed_in(std::size_t mode) {
         const std::vector<Expression> states = model_.state_symbols();
-        const std::vector<Expression> rates = model_.expand(model_.modes[mode].rates);
+        const std::vector<Expression>& rates = rates_[mode];
         std::vector<Expression> terms = jacobian({&values_[mode], 1}, states);
         for (std::size_t i = 0; i < states.size(); ++i)
             terms[i] = terms[i] * rates[i];
-        const Function all = model_.function_of(terms);
+        const Function all(inputs_, terms);
         return first_of([&](const State& state) -> std::string {
             double sum = 0, size = 0;
             for (const double term : all(concatenated(state, parameters_))) {
@@ -124,17 +158,19 @@ private:
         const Expression surface = model_.expand(model_.events[transition.event].function);
         std::vector<Expression> with_gradient = jacobian({&surface, 1}, states);
         with_gradient.insert(with_gradient.begin(), surface);
-        const Function function = model_.function_of(with_gradient);
-        const Function rates = model_.function_of(model_.expand(model_.modes[transition.mode].rates));
-        std::vector<Expression> images = states;
-        for (const StateMap::Change& change : model_.jumps[transition.jump].map.changes())
+        std::vector<Expression> images = states, when;
+        for (const StateMap::Change& change : changes_of(model_.jumps[transition.jump].map, states, identity_))
             images[change.state] = model_.expand(change.image);
-        const Function jump = model_.function_of(images);
+        for (const Alternative& alternative : transition.next)
+            for (const Condition& condition : alternative.when)
+                when.push_back(model_.expand(condition.function));
+        const Function function(inputs_, with_gradient), rates(inputs_, rates_[transition.mode]), jump(inputs_, images),
+            conditions(inputs_, when);
         return first_of([&](State state) -> std::string {
             if (!put_on(function, state) || !(rate_on(function, rates, state) < 0))
                 return "";
             const State after = jump(concatenated(state, parameters_));
-            const auto next = mode_after(transition, after);
+            const auto next = mode_after(transition, conditions(concatenated(after, parameters_)));
             if (!next || !changes(value(transition.mode, state), value(*next, after)))
                 return "";
             return fmt::format("'{}' is not conserved: the transition '{}' changes it from {:.6g} to {:.6g} (at {})",
@@ -170,13 +206,13 @@ private:
         return rate;
     }
     /// Returns the mode that follows a transition; empty at its end, or where no condition holds.
-    std::optional<std::size_t> mode_after(const Transition& transition, const State& after) {
+    /// @param values of the conditions of all alternatives
+    static std::optional<std::size_t> mode_after(const Transition& transition, const std::vector<double>& values) {
+        auto value = values.begin();
         for (const Alternative& alternative : transition.next) {
-            const bool holds = std::ranges::all_of(alternative.when, [&](const Condition& condition) {
-                const Expression function = model_.expand(condition.function);
-                return model_.function_of({&function, 1})(concatenated(after, parameters_))[0] >= 0;
-            });
-            if (holds)
+            const auto first = value;
+            value += static_cast<std::ptrdiff_t>(alternative.when.size());
+            if (std::all_of(first, value, [](double one) { return one >= 0; }))
                 return alternative.mode;
         }
         return std::nullopt;
@@ -184,10 +220,13 @@ private:
 
     Model model_;
     std::string name_;
+    SymbolIndex inputs_;
     std::vector<double> parameters_;
     State initial_;
     std::vector<Expression> values_; ///< in each mode
+    std::vector<std::vector<Expression>> rates_;
     std::vector<Function> compiled_;
+    std::shared_ptr<const std::vector<Expression>> identity_; ///< images of jumps that change nothing
 };
 
 /// The gradients of everything on which a motion depends, at a number of states: a translation of states along which
@@ -196,94 +235,54 @@ class Translations {
 public:
     explicit Translations(const Model& model) : model_(model) {
         const std::vector<Expression> states = model_.state_symbols();
-        std::vector<Expression> all;
-        const auto add = [&](const Expression& one) { all.push_back(model_.expand(one)); };
-        for (const Mode& mode : model_.modes) {
-            for (const Expression& rate : mode.rates)
-                add(rate);
-            for (const ConservedQuantity& conserved : model_.conserved)
-                if (const Expression* own = conserved_in(conserved, mode.name))
-                    add(*own);
-        }
-        for (const Event& event : model_.events)
-            add(event.function);
-        for (const Transition& transition : model_.transitions)
-            for (const Alternative& alternative : transition.next)
-                for (const Condition& condition : alternative.when)
-                    add(condition.function);
-        for (const Section& section : model_.sections)
-            if (!section.state)
-                add(section.function);
+        std::vector<Expression> all = deciding_expressions(model_);
+        std::shared_ptr<const std::vector<Expression>> identity;
         for (const Jump& jump : model_.jumps)
-            for (const StateMap::Change& change : jump.map.changes())
-                add(change.image - states[change.state]);
-        gradients_ = model_.function_of(jacobian(all, states));
-        rows_ = all.size();
+            for (const StateMap::Change& change : changes_of(jump.map, states, identity))
+                all.push_back(model_.expand(change.image - states[change.state]));
+        const Function gradients = model_.function_of(jacobian(all, states));
+        const std::vector<double> initial = model_.initial_state(), parameters = model_.parameter_values();
+        double turn = 0;
+        for (const double distance : {0.1, 0.3, 1.0, 0.2, 0.7, 2.0})
+            gradients_.push_back(gradients(concatenated(state_around(initial, distance, turn), parameters)));
     }
     /// True when nothing changes if two states are translated together.
     bool keep_motion(std::size_t one, std::size_t other) const {
         constexpr double same = 1e-11;
-        const std::vector<double> initial = model_.initial_state(), parameters = model_.parameter_values();
-        const std::size_t n = initial.size();
-        double turn = 0;
+        const std::size_t n = model_.states.size();
         bool moved = false;
-        for (const double distance : {0.1, 0.3, 1.0, 0.2, 0.7, 2.0}) {
-            std::vector<double> state = initial;
-            for (double& value : state)
-                value += distance * std::sin(turn += 2.4);
-            const std::vector<double> all = gradients_(concatenated(state, parameters));
-            for (std::size_t row = 0; row < rows_; ++row) {
-                const double a = all[row * n + one], b = all[row * n + other];
+        for (const std::vector<double>& all : gradients_)
+            for (std::size_t row = 0; row < all.size(); row += n) {
+                const double a = all[row + one], b = all[row + other];
                 if (!std::isfinite(a) || !std::isfinite(b))
                     continue;
                 if (std::abs(a + b) > same * (std::abs(a) + std::abs(b)))
                     return false;
                 moved = moved || a != 0;
             }
-        }
         return moved;
     }
 
 private:
     Model model_;
-    Function gradients_;
-    std::size_t rows_ = 0;
+    std::vector<std::vector<double>> gradients_; ///< at each of some states: all rows, one after another
 };
 
 /// Collects the names on which a model's motion depends.
 class Dependencies {
 public:
     explicit Dependencies(const Model& model) : model_(model) {
-        for (const Mode& mode : model_.modes)
-            for (const Expression& rate : mode.rates)
-                add(rate);
-        for (const Event& event : model_.events)
-            add(event.function);
-        for (const Transition& transition : model_.transitions)
-            for (const Alternative& alternative : transition.next)
-                for (const Condition& condition : alternative.when)
-                    add(condition.function);
-        for (const Section& section : model_.sections)
-            if (!section.state)
-                add(section.function);
-        for (const ConservedQuantity& conserved : model_.conserved) {
-            if (!conserved.value.empty())
-                add(conserved.value);
-            for (const ConservedQuantity::InMode& own : conserved.modes)
-                add(own.value);
-        }
+        for (const Expression& symbol : symbols_of(deciding_expressions(model_)))
+            names_.insert(symbol.name());
+        const std::vector<Expression> states = model_.state_symbols();
+        std::shared_ptr<const std::vector<Expression>> identity;
         for (const Jump& jump : model_.jumps)
-            for (const StateMap::Change& change : jump.map.changes())
+            for (const StateMap::Change& change : changes_of(jump.map, states, identity))
                 add_jump(change);
     }
     bool contain(const std::string& name) const { return names_.count(name) > 0; }
 
 private:
-    void add(const Expression& expression) {
-        const Expression expanded = model_.expand(expression);
-        for (const Expression& symbol : symbols_of({&expanded, 1}))
-            names_.insert(symbol.name());
-    }
     /// A jump may shift a state: x + c, where c does not contain x.
     void add_jump(const StateMap::Change& change) {
         const Expression image = model_.expand(change.image), own = model_.state_symbols()[change.state];

@@ -75,7 +75,7 @@ bool ContactChoice::add_by_sign(std::vector<Alternative>& to, const Alternative&
 /// friction there always is one (the matrix of inertia is positive definite), so that the last needs no condition.
 void ContactChoice::add_by_forces(std::vector<Alternative>& to, const Alternative& given, std::size_t base,
                                   const ContactsKnowledge& known) {
-    std::vector<ContactStates> options{{}};
+    std::vector<std::vector<ContactState>> possible;
     bool smooth = true;
     for (const ContactKnowledge& one : known) {
         std::vector<ContactState> states;
@@ -85,14 +85,9 @@ void ContactChoice::add_by_forces(std::vector<Alternative>& to, const Alternativ
             states = {ContactState::stick, ContactState::forward, ContactState::backward};
         states.push_back(ContactState::open);
         smooth = smooth && (states.size() == 1 || states.front() == ContactState::closed);
-        std::vector<ContactStates> longer;
-        for (const ContactStates& option : options)
-            for (const ContactState state : states) {
-                longer.push_back(option);
-                longer.back().push_back(state);
-            }
-        options = std::move(longer);
+        possible.push_back(std::move(states));
     }
+    std::vector<ContactStates> options = combinations(possible);
     std::ranges::stable_sort(options, {}, [](const ContactStates& states) {
         return std::pair(std::ranges::count(states, ContactState::open), std::ranges::count_if(states, is_slip));
     });

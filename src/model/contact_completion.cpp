@@ -8,7 +8,6 @@
 #include "model/model_completion.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
@@ -73,20 +72,12 @@ private:
     }
 
     std::vector<ContactStates> all_states() const {
-        std::vector<ContactStates> result{{}};
-        for (const UnilateralContact& contact : model_.contacts) {
-            std::vector<ContactStates> longer;
-            for (const ContactStates& one : result)
-                for (const ContactState state : contact.friction
-                                                    ? std::vector{ContactState::open, ContactState::stick,
-                                                                  ContactState::forward, ContactState::backward}
-                                                    : std::vector{ContactState::open, ContactState::closed}) {
-                    longer.push_back(one);
-                    longer.back().push_back(state);
-                }
-            result = std::move(longer);
-        }
-        return result;
+        std::vector<std::vector<ContactState>> options;
+        for (const UnilateralContact& contact : model_.contacts)
+            options.push_back(contact.friction ? std::vector{ContactState::open, ContactState::stick,
+                                                             ContactState::forward, ContactState::backward}
+                                               : std::vector{ContactState::open, ContactState::closed});
+        return combinations(options);
     }
 
     /// A start in a written mode, at the surface of contacts and without normal velocity, is in the mode whose forces
@@ -148,12 +139,16 @@ private:
     }
 
     bool may_close_too(std::size_t base, const ContactStates& states, std::size_t contact) {
-        ContactStates normals = states;
-        normals[contact] = ContactState::closed;
-        for (ContactState& state : normals)
+        ContactStates more = states;
+        more[contact] = ContactState::closed;
+        return modes_.possible(base, without_friction(std::move(more)));
+    }
+    /// Returns which contacts are closed, whatever their friction does.
+    static ContactStates without_friction(ContactStates states) {
+        for (ContactState& state : states)
             if (state != ContactState::open)
                 state = ContactState::closed;
-        return modes_.possible(base, normals);
+        return states;
     }
 
     /// A few lines of a file must not become a model that fills the memory.
@@ -174,15 +169,12 @@ private:
                 open.push_back(i);
         for (std::size_t set = 1; set < std::size_t{1} << open.size(); ++set) {
             std::vector<std::size_t> closing;
-            ContactStates normals = variant.states;
+            ContactStates normals = without_friction(variant.states);
             for (std::size_t k = 0; k < open.size(); ++k)
                 if ((set >> k & 1U) != 0) {
                     closing.push_back(open[k]);
                     normals[open[k]] = ContactState::closed;
                 }
-            for (ContactState& state : normals)
-                if (state != ContactState::open)
-                    state = ContactState::closed;
             if (closing.size() > 1 &&
                 (model_.contact_settings.law == ImpactLaw::sequence || !modes_.possible(base, normals)))
                 continue;
@@ -217,11 +209,7 @@ private:
         made.when_text = impact.when.empty() ? "" : "impulses of " + (words.empty() ? "none" : words.substr(1));
         made.jump =
             add_jump("impact" + words, "velocities after an impact", modes_.velocity_map(impact.changes, impact.zero));
-        choice_.add(made.next, {}, base, impact.after);
-        if (made.next.empty())
-            made.next.push_back(never());
-        made.otherwise = no_solution(names);
-        made.paradox = has_friction();
+        add_next(made, base, impact.after, names);
         add_rest(made, base, variant, closing, impact);
         model_.transitions.push_back(std::move(made));
     }
@@ -360,6 +348,15 @@ private:
         return event;
     }
 
+    /// Says what follows a transition, and why the motion ends where nothing does.
+    void add_next(Transition& made, std::size_t base, const ContactsKnowledge& known, const std::string& what) {
+        choice_.add(made.next, {}, base, known);
+        if (made.next.empty())
+            made.next.push_back(never());
+        made.otherwise = no_solution(what);
+        made.paradox = has_friction();
+    }
+
     void add_transition(std::size_t base, const ContactVariant& variant, std::size_t event, const std::string& what,
                         std::size_t jump, const ContactsKnowledge& known) {
         model_.modes[variant.mode].watched.push_back(event);
@@ -370,11 +367,7 @@ private:
                         .derived = true};
         if (written_.contains({made.mode, made.event}))
             return;
-        choice_.add(made.next, {}, base, known);
-        if (made.next.empty())
-            made.next.push_back(never());
-        made.otherwise = no_solution(what);
-        made.paradox = has_friction();
+        add_next(made, base, known, what);
         model_.transitions.push_back(std::move(made));
     }
 

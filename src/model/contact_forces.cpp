@@ -41,6 +41,20 @@ Expression eliminate(ExpressionMatrix& rows, const Expression& one) {
     return determinant;
 }
 
+/// Tries Cholesky's method, which needs pivots above this share of the diagonal. @param matrix symmetric, n x n
+bool has_positive_pivots(std::vector<double> matrix, std::size_t n, double share) {
+    const std::vector<double> given = matrix;
+    for (std::size_t k = 0; k < n; ++k) {
+        const double pivot = matrix[k * n + k];
+        if (!(pivot > share * given[k * n + k]))
+            return false;
+        for (std::size_t i = k + 1; i < n; ++i)
+            for (std::size_t j = k + 1; j < n; ++j)
+                matrix[i * n + j] -= matrix[i * n + k] * matrix[k * n + j] / pivot;
+    }
+    return true;
+}
+
 } // namespace
 
 std::vector<Expression> accelerations_by(const std::vector<Expression>& mass, const std::vector<Expression>& forces) {
@@ -60,6 +74,20 @@ std::vector<Expression> accelerations_by(const std::vector<Expression>& mass, co
     eliminate(rows, forces.front().graph()->number(1));
     for (const auto& row : rows)
         result.push_back(row.back());
+    return result;
+}
+
+std::vector<ContactStates> combinations(const std::vector<std::vector<ContactState>>& options) {
+    std::vector<ContactStates> result{{}};
+    for (const std::vector<ContactState>& states : options) {
+        std::vector<ContactStates> longer;
+        for (const ContactStates& one : result)
+            for (const ContactState state : states) {
+                longer.push_back(one);
+                longer.back().push_back(state);
+            }
+        result = std::move(longer);
+    }
     return result;
 }
 
@@ -94,23 +122,15 @@ ContactMechanics::ContactMechanics(Model& model, const Places& places, SurfaceMo
     note_products();
 }
 
-/// Pivots of Gauss' elimination of a positive definite matrix are positive.
 void ContactMechanics::require_positive_masses() const {
     const std::size_t n = velocities_.size();
     const std::vector<double> mass = values_at_start(model_, mass_);
     if (std::ranges::any_of(mass, [](double value) { return !std::isfinite(value); }))
         return; // `validate` tells what is wrong with the initial state
-    std::vector<double> a(n * n, 0.0);
+    std::vector<double> matrix(n * n, 0.0);
     for (std::size_t i = 0; i < mass.size(); ++i)
-        a[mass.size() == n ? i * (n + 1) : i] = mass[i];
-    bool positive = true;
-    for (std::size_t k = 0; k < n && positive; ++k) {
-        positive = a[k * n + k] > 0;
-        for (std::size_t i = k + 1; i < n && positive; ++i)
-            for (std::size_t j = n; j-- > k;)
-                a[i * n + j] -= a[i * n + k] / a[k * n + k] * a[k * n + j];
-    }
-    if (!positive)
+        matrix[mass.size() == n ? i * (n + 1) : i] = mass[i];
+    if (!has_positive_pivots(std::move(matrix), n, 0))
         throw InputError(places_.of("contacts.mass"), "the mass matrix is not positive definite at the initial state",
                          "give masses and moments of inertia, which are positive");
 }
@@ -270,27 +290,17 @@ void ContactMechanics::note_products() {
         products_.clear(); // `validate` tells what is wrong with the initial state
 }
 
-/// Cholesky's method on the matrix of products: a small pivot means that one direction follows from others.
+/// A small pivot of the matrix of products means that one direction follows from others.
 bool ContactMechanics::independent(const std::vector<std::size_t>& directions) const {
     constexpr double dependent = 1e-9;
     if (products_.empty())
         return true;
     const std::size_t n = directions.size();
-    std::vector<double> a, size;
-    for (const std::size_t i : directions) {
+    std::vector<double> matrix;
+    for (const std::size_t i : directions)
         for (const std::size_t j : directions)
-            a.push_back(products_[i * 2 * normal_.size() + j]);
-        size.push_back(products_[i * 2 * normal_.size() + i]);
-    }
-    for (std::size_t k = 0; k < n; ++k) {
-        const double pivot = a[k * n + k];
-        if (!(pivot > dependent * size[k]))
-            return false;
-        for (std::size_t i = k + 1; i < n; ++i)
-            for (std::size_t j = k + 1; j < n; ++j)
-                a[i * n + j] -= a[i * n + k] * a[k * n + j] / pivot;
-    }
-    return true;
+            matrix.push_back(products_[i * 2 * normal_.size() + j]);
+    return has_positive_pivots(std::move(matrix), n, dependent);
 }
 
 } // namespace graze

@@ -22,6 +22,8 @@ enum class ContactState {
 };
 /// One for each contact.
 using ContactStates = std::vector<ContactState>;
+/// Returns all combinations of what each contact may do; that of the last one changes first.
+std::vector<ContactStates> combinations(const std::vector<std::vector<ContactState>>& options);
 
 inline bool is_slip(ContactState state) {
     return state == ContactState::forward || state == ContactState::backward;

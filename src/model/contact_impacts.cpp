@@ -32,25 +32,6 @@ Expression ContactImpacts::restitution(std::size_t contact) const {
     return modes_.motion().expanded(model_.contacts[contact].restitution);
 }
 
-namespace {
-
-/// Returns all combinations of what the contacts that take part may do.
-std::vector<ContactStates> combinations(const std::vector<std::vector<ContactState>>& options) {
-    std::vector<ContactStates> result{{}};
-    for (const std::vector<ContactState>& states : options) {
-        std::vector<ContactStates> longer;
-        for (const ContactStates& one : result)
-            for (const ContactState state : states) {
-                longer.push_back(one);
-                longer.back().push_back(state);
-            }
-        result = std::move(longer);
-    }
-    return result;
-}
-
-} // namespace
-
 /// Newton's and Moreau's law: impulses at which each contact that takes one separates at -e times the velocity before.
 bool ContactImpacts::solve_at_once(const Meeting& meeting, ContactImpact& impact) const {
     const ContactMechanics& mechanics = meeting.mechanics;

@@ -14,7 +14,6 @@ struct ContactImpact {
     std::vector<Expression> changes{}; ///< of the velocities
     std::vector<Expression> zero{};    ///< velocities that vanish after it
     std::vector<Condition> when{};     ///< before the impact
-    std::string when_text{};
     ContactsKnowledge after{};
 };
 

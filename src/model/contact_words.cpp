@@ -48,7 +48,6 @@ std::string contact_text(const UnilateralContact& contact) {
 std::vector<std::string> contact_remarks(const Model& model) {
     if (model.contacts.empty() || !model.declared)
         return {};
-    constexpr std::array<std::string_view, 4> laws{"newton", "moreau", "poisson", "sequence"};
     const ContactSettings& settings = model.contact_settings;
     std::vector<std::string> velocities, masses;
     for (const std::size_t state : settings.velocities)
@@ -56,7 +55,7 @@ std::vector<std::string> contact_remarks(const Model& model) {
     for (const Expression& mass : settings.mass)
         masses.push_back(formula(mass));
     std::vector<std::string> remarks{fmt::format(
-        "law {}, impulses change {}, mass matrix {}{}", laws[static_cast<std::size_t>(settings.law)],
+        "law {}, impulses change {}, mass matrix {}{}", impact_law_words[static_cast<std::size_t>(settings.law)],
         fmt::join(velocities, ", "), masses.size() > velocities.size() ? "" : "diagonal ", fmt::join(masses, ", "))};
     const std::string handled =
         settings.law == ImpactLaw::sequence ? "one after another, in the order of the file" : "all at once";

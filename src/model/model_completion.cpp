@@ -41,21 +41,21 @@ bool same_expressions(std::span<const Expression> one, std::span<const Expressio
     return std::ranges::equal(one, other, same_expression);
 }
 
+bool same_when(const std::vector<Condition>& one, const std::vector<Condition>& other) {
+    return std::ranges::equal(one, other, [](const Condition& a, const Condition& b) {
+        return a.strict == b.strict && same_expression(a.function, b.function);
+    });
+}
+
 bool same_conditions(const Alternative& one, const Alternative& other) {
-    return one.mode == other.mode &&
-           std::ranges::equal(one.when, other.when, [](const Condition& a, const Condition& b) {
-               return a.strict == b.strict && same_expression(a.function, b.function);
-           });
+    return one.mode == other.mode && same_when(one.when, other.when);
 }
 
 bool same_transition(const Transition& one, const Transition& other) {
     const bool chatter =
         one.chatter.has_value() == other.chatter.has_value() &&
         (!one.chatter || (one.chatter->jump == other.chatter->jump && one.chatter->mode == other.chatter->mode));
-    const bool same_case =
-        one.also == other.also && std::ranges::equal(one.when, other.when, [](const Condition& a, const Condition& b) {
-            return a.strict == b.strict && same_expression(a.function, b.function);
-        });
+    const bool same_case = one.also == other.also && same_when(one.when, other.when);
     return chatter && same_case && one.label == other.label && one.mode == other.mode && one.event == other.event &&
            one.jump == other.jump && std::ranges::equal(one.next, other.next, same_conditions);
 }

@@ -36,6 +36,8 @@ std::vector<RubbingMode> rubbing_modes(const Model& model);
 inline constexpr std::array<std::string_view, 3> friction_words{"backward", "stick", "forward"};
 /// Completes frictions: replaces the modes that contain them.
 void complete_frictions(Model& model, const Places& places, const std::vector<RubbingMode>& rubbing);
+/// Names of the laws of impact, in the order of ImpactLaw.
+inline constexpr std::array<std::string_view, 4> impact_law_words{"newton", "moreau", "poisson", "sequence"};
 /// Checks declarations of contacts on which all that is made of them relies. @throws InputError
 void check_contacts(const Model& model, const Places& places);
 /// Completes contacts: events, jumps, modes of closed contacts.

@@ -2,6 +2,7 @@
 
 #include "graze/base/input_error.hpp"
 #include "model/contact_forces.hpp"
+#include "model/model_completion.hpp"
 
 #include <fmt/format.h>
 
@@ -98,8 +99,8 @@ void ContactParts::read_settings(const std::vector<TomlEntry>& entries) {
     ContactSettings& settings = model_.contact_settings;
     for (const TomlEntry& entry : entries)
         if (entry.name == "law") {
-            settings.law = std::array{ImpactLaw::newton, ImpactLaw::moreau, ImpactLaw::poisson,
-                                      ImpactLaw::sequence}[choice(entry, {"newton", "moreau", "poisson", "sequence"})];
+            settings.law = static_cast<ImpactLaw>(
+                choice(entry, std::vector<std::string>(impact_law_words.begin(), impact_law_words.end())));
         } else if (entry.name == "velocities") {
             for (const TomlEntry& state : reader_.elements(entry))
                 settings.velocities.push_back(index(state, model_.states, "state"));

@@ -137,35 +137,25 @@ private:
                  "choose another name");
         if (model_.jumps.empty() || model_.jumps.front().name != "identity")
             fail("jumps", "the first jump is not the identity", "leave jump 0 of the model as it is");
-        std::set<std::string> seen;
-        for (const Quantity& quantity : model_.quantities) {
-            const std::string path = "quantities." + quantity.name;
-            if (!is_valid_name(quantity.name))
-                fail(
-                    path, fmt::format("'{}' cannot be the name of a quantity", quantity.name),
-                    "names consist of letters, digits and underscores, do not start with a digit and are not reserved");
-            check_length(quantity.name, "quantity", places_.of(path));
-            if (!seen.insert(quantity.name).second || model_.find_state(quantity.name) ||
-                model_.find_parameter(quantity.name))
-                fail(path, fmt::format("the name '{}' of a quantity is used twice", quantity.name),
-                     "rename one of them");
-        }
-        check_conserved_names();
+        check_value_names(model_.quantities, "quantity", "quantities");
+        check_value_names(model_.conserved, "conserved quantity", "conserved", "period");
     }
 
-    void check_conserved_names() const {
+    /// @param reserved one more name that may not be used
+    template <class Item>
+    void check_value_names(const std::vector<Item>& items, const char* kind, const std::string& group,
+                           std::string_view reserved = {}) const {
         std::set<std::string> seen;
-        for (const ConservedQuantity& conserved : model_.conserved) {
-            const std::string path = "conserved." + conserved.name;
-            if (!is_valid_name(conserved.name) || conserved.name == "period")
-                fail(path, fmt::format("'{}' cannot be the name of a conserved quantity", conserved.name),
+        for (const Item& item : items) {
+            const std::string path = group + "." + item.name;
+            if (!is_valid_name(item.name) || item.name == reserved)
+                fail(path, fmt::format("'{}' cannot be the name of a {}", item.name, kind),
                      "names consist of letters, digits and underscores, do not start with a digit and are not "
-                     "reserved, as 'period' is");
-            check_length(conserved.name, "conserved quantity", places_.of(path));
-            if (!seen.insert(conserved.name).second || model_.find_state(conserved.name) ||
-                model_.find_parameter(conserved.name))
-                fail(path, fmt::format("the name '{}' of a conserved quantity is used twice", conserved.name),
-                     "rename one of them");
+                     "reserved" +
+                         (reserved.empty() ? std::string() : fmt::format(", as '{}' is", reserved)));
+            check_length(item.name, kind, places_.of(path));
+            if (!seen.insert(item.name).second || model_.find_state(item.name) || model_.find_parameter(item.name))
+                fail(path, fmt::format("the name '{}' of a {} is used twice", item.name, kind), "rename one of them");
         }
     }
 

@@ -261,10 +261,9 @@ private:
     void write_contacts() {
         if (model_.contacts.empty())
             return;
-        constexpr std::array laws{"newton", "moreau", "poisson", "sequence"};
         const ContactSettings& settings = model_.contact_settings;
         line("\n[contacts]");
-        line("law = {}", toml_string(laws[static_cast<std::size_t>(settings.law)]));
+        line("law = {}", toml_string(std::string(impact_law_words[static_cast<std::size_t>(settings.law)])));
         std::vector<std::string> velocities, mass, row, modes;
         for (const std::size_t state : settings.velocities)
             velocities.push_back(toml_string(model_.states[state].name));

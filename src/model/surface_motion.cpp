@@ -27,6 +27,18 @@ bool SurfaceMotion::depends_on_states(const Expression& function) const {
     return !sparse_jacobian({&function, 1}, SymbolIndex(states_)).empty();
 }
 
+namespace {
+
+/// Returns the zero of rest + slope x.
+Expression zero_of(const Expression& rest, const Expression& slope) {
+    if (!slope.is_number())
+        return -rest / slope;
+    const double number = slope.node().value;
+    return number == 1 ? -rest : number == -1 ? rest : rest / slope.graph()->number(-number);
+}
+
+} // namespace
+
 std::optional<SurfaceMotion::Solved> SurfaceMotion::solved(const Expression& function,
                                                            const std::vector<bool>& preferred) const {
     std::optional<Solved> found;
@@ -37,14 +49,7 @@ std::optional<SurfaceMotion::Solved> SurfaceMotion::solved(const Expression& fun
         if (!is_constant || model_.states[i].period || (found && !preferred[i]))
             continue;
         const Expression rest = substitute(function, std::vector<Replacement>{{states_[i], model_.number(0)}});
-        if (!slope.value.is_number()) {
-            found = Solved{i, -rest / slope.value};
-            if (preferred[i])
-                break;
-            continue;
-        }
-        const double coefficient = slope.value.node().value;
-        found = Solved{i, coefficient == 1 ? -rest : coefficient == -1 ? rest : rest / model_.number(-coefficient)};
+        found = Solved{i, zero_of(rest, slope.value)};
         if (preferred[i])
             break;
     }

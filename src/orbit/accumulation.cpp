@@ -1,6 +1,7 @@
 #include "orbit/accumulation.hpp"
 
 #include "base/concatenated.hpp"
+#include "base/special_numbers.hpp"
 #include "flow/lie_derivative.hpp"
 #include "graze/flow/mode_flow.hpp"
 #include "graze/symbolic/transform.hpp"
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace graze {
@@ -181,7 +181,6 @@ bool Accumulation::evaluate(std::span<const double> state, std::span<const doubl
                  of_ratio = (std::abs(there.values[ratio] - r) + std::abs(at_contact.values[ratio] - r)) / (1 - r);
     constexpr double negligible = 1e-12; // differences of ratios by round-off
     result.relative_error = 4 * change * change + (of_ratio > negligible ? of_ratio : 0);
-    constexpr double epsilon = std::numeric_limits<double>::epsilon();
     result.round_off = 2 * epsilon * size(state, parameters) / (std::abs(u) * (1 - r));
     return std::isfinite(result.time) && result.state.allFinite() && result.state_by.allFinite() &&
            result.time_by.allFinite();

@@ -53,25 +53,33 @@ void set_parameters(Model& model, const std::vector<double>& values) {
 
 namespace {
 
+/// Returns the orbit of a run at which a value is nearest to that asked for.
+template <class Value>
+std::optional<OrbitRecord> nearest_orbit(const StartFrom& start, const ResultFile& file, const Value& value) {
+    std::optional<OrbitRecord> record;
+    double least = std::numeric_limits<double>::infinity();
+    for (OrbitRecord& one : file.orbits(start.run, false)) {
+        const double distance = std::abs(value(one) - start.value);
+        if ((start.direction && one.part != *start.direction) || !(distance < least))
+            continue;
+        least = distance;
+        record = std::move(one);
+    }
+    if (record)
+        record->point.type = PointType::regular;
+    return record;
+}
+
 /// Returns the orbit of a family at which its coordinate is nearest to a value.
 std::optional<OrbitRecord> nearest_in_family(const StartFrom& start, const StudyRun& parent, const ResultFile& file) {
     const std::vector<Monitor>& monitors = parent.branch().settings.monitors;
     const auto monitor = std::ranges::find(monitors, *start.coordinate, &Monitor::name);
     const auto place = static_cast<std::size_t>(monitor - monitors.begin());
-    std::optional<OrbitRecord> record;
-    double least = std::numeric_limits<double>::infinity();
-    for (OrbitRecord& one : file.orbits(start.run, false)) {
-        const double value = *start.coordinate == "period"       ? one.point.solution.orbit.period()
-                             : place < one.point.monitors.size() ? one.point.monitors[place]
-                                                                 : std::numeric_limits<double>::quiet_NaN();
-        const double distance = std::abs(value - start.value);
-        if ((start.direction && one.part != *start.direction) || !(distance < least))
-            continue;
-        least = distance;
-        record = std::move(one);
-        record->point.type = PointType::regular;
-    }
-    return record;
+    return nearest_orbit(start, file, [&](const OrbitRecord& one) {
+        return *start.coordinate == "period"       ? one.point.solution.orbit.period()
+               : place < one.point.monitors.size() ? one.point.monitors[place]
+                                                   : std::numeric_limits<double>::quiet_NaN();
+    });
 }
 
 } // namespace
@@ -87,18 +95,10 @@ OrbitRecord orbit_to_start_from(const StartFrom& start, const StudyRun& parent, 
             throw InputError(start.place, fmt::format("run '{}' has no parameter '{}'", start.run, *start.coordinate),
                              "name one of the model's");
         const std::size_t place = found->place();
-        double least = std::numeric_limits<double>::infinity();
-        for (OrbitRecord& one : file.orbits(start.run, false)) {
-            const double distance = std::abs(one.point.solution.orbit.parameters[place] - start.value);
-            if ((start.direction && one.part != *start.direction) || !(distance < least))
-                continue;
-            least = distance;
-            record = std::move(one);
-        }
-        if (record) { // the orbit is a first guess at exactly the value that is asked for
+        record = nearest_orbit(start, file,
+                               [&](const OrbitRecord& one) { return one.point.solution.orbit.parameters[place]; });
+        if (record) // the orbit is a first guess at exactly the value that is asked for
             record->point.solution.orbit.parameters[place] = start.value;
-            record->point.type = PointType::regular;
-        }
     } else if (start.point.empty()) {
         if (parent.is_followed())
             throw InputError(start.place, fmt::format("run '{}' has many points", start.run),

@@ -54,9 +54,7 @@ bool BranchRequest::keeps_point() const {
 }
 
 std::size_t BranchRequest::kept_conditions() const {
-    const auto& monitors = settings.monitors;
-    const auto fixed = static_cast<std::size_t>(
-        std::count_if(monitors.begin(), monitors.end(), [](const Monitor& one) { return one.fixed; }));
+    const std::size_t fixed = settings.fixed_monitors();
     const std::size_t varying = settings.free.size() + (settings.family ? 1U : 0U); // besides the first
     return varying - std::min(fixed, varying);
 }

@@ -91,19 +91,17 @@ void read_along(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
     BranchSettings& settings = run.branch().settings;
     if (run.kind == RunKind::curve)
         return read_plane(reader, run, entry);
-    const bool may_be_family = run.kind == RunKind::follow;
-    if (entry.node->is_string()) {
-        const std::string name = reader.toml().string(entry);
-        if (!may_be_family || !read_family(run, name))
-            settings.parameter = parameter_named(reader, run.model, entry, name);
-        return;
-    }
+    const auto read_name = [&](const TomlEntry& item, const std::string& name) {
+        if (run.kind != RunKind::follow || !read_family(run, name))
+            settings.parameter = parameter_named(reader, run.model, item, name);
+    };
+    if (entry.node->is_string())
+        return read_name(entry, reader.toml().string(entry));
     const auto items = reader.toml().entries(reader.toml().table(entry), entry.path);
     if (items.size() != 1)
         reader.fail(entry, fmt::format("{} names {} parameters", entry.path, items.size()),
                     "name the one that is followed: along = { V = [0, 1] }; `free` names further ones");
-    if (!may_be_family || !read_family(run, items[0].name))
-        settings.parameter = parameter_named(reader, run.model, items[0], items[0].name);
+    read_name(items[0], items[0].name);
     const auto [least, greatest] = reader.range(run.model, items[0]);
     settings.least = least;
     settings.greatest = greatest;

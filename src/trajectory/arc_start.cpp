@@ -113,8 +113,7 @@ void Trajectory::finish_violated(std::size_t w) {
     const Event& event = simulation_.model().events[compiled_mode_->watched[w]];
     if (const Transition& only = simulation_.model().transitions[compiled_mode_->transitions[w]];
         !only.otherwise.empty() && only.next.front().when_text == "never")
-        return finish(only.paradox ? Ending::painleve : Ending::no_transition, time_,
-                      fmt::format("{}: {}", where(), only.otherwise));
+        return finish_otherwise(only, time_);
     finish(Ending::inadmissible, time_,
            fmt::format("barrier '{}' is already violated ({:.6g} < 0) {}: choose an initial state on its admissible "
                        "side, or a jump that does not lead beyond it",

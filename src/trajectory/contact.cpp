@@ -89,6 +89,12 @@ void Trajectory::add_simultaneous(std::size_t first) {
     }
 }
 
+/// Ends as a transition says for where none of its ways is possible.
+void Trajectory::finish_otherwise(const Transition& transition, double time) {
+    finish(transition.paradox ? Ending::painleve : Ending::no_transition, time,
+           fmt::format("{}: {}", where(), transition.otherwise));
+}
+
 /// Ends at a transition none of whose conditions hold.
 void Trajectory::finish_without_way(std::size_t transition) {
     const Model& model = simulation_.model();
@@ -96,8 +102,7 @@ void Trajectory::finish_without_way(std::size_t transition) {
     hand_over_contact();
     state_ = after_;
     if (!definition.otherwise.empty())
-        return finish(definition.paradox ? Ending::painleve : Ending::no_transition, time_,
-                      fmt::format("{}: {}", where(), definition.otherwise));
+        return finish_otherwise(definition, time_);
     finish(Ending::no_transition, time_,
            fmt::format("no condition of transition '{}' (mode '{}', event '{}') holds at time {:.15g}: add an "
                        "alternative without a condition, or one that covers this state",

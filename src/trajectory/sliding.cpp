@@ -94,7 +94,7 @@ bool Trajectory::finish_at_paradox(double time) {
         const Transition& only = simulation_.model().transitions[compiled_mode_->transitions[w]];
         if (only.paradox && only.next.front().when_text == "never" &&
             is_near_zero(compiled_mode_->watched[w], 0, near_end_of_series)) {
-            finish(Ending::painleve, time, fmt::format("{}: {}", where(), only.otherwise));
+            finish_otherwise(only, time);
             return true;
         }
     }

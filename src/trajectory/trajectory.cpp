@@ -38,10 +38,9 @@ Trajectory::Trajectory(const Simulation& simulation, std::span<const double> par
         most_watched = std::max(most_watched, compiled.mode(m).watched.size());
         most_tables = std::max(most_tables, compiled.mode(m).tables.size());
     }
-    if (most_tables > 0) {
-        table_steps_ = std::make_unique<TableSteps>(compiled, order_);
+    table_steps_ = TableSteps::of(compiled, order_);
+    if (table_steps_)
         table_steps_->set_parameters(parameters_);
-    }
     state_.resize(states_);
     before_.resize(states_);
     after_.resize(states_);
@@ -310,17 +309,17 @@ void Trajectory::advance(const StepPreview& preview, std::size_t lane) {
                 return make_contact(watched, step);
         return branch_ahead_ < states_ ? finish_at_branch(branch_ahead_) : finish_singular();
     }
+    const bool crosses_knot = table_steps_ && table_steps_->crosses();
     if (tangents_) {
         Jet* const jet = preview.jet();
         const bool usable = jet != nullptr && jet->width() == 1 && jet->deferred_count() > 0;
         tangents_->use(usable ? jet : nullptr, preview.next());
-        tangents_->cross_knot(table_steps_ && table_steps_->crosses());
+        tangents_->cross_knot(crosses_knot);
     }
     double step = preview.length(lane);
     const std::size_t jumping = limit_to_branch(step);
     const double limited = step;
     // A step as short as round-off that passes a knot agrees no better than that.
-    const bool crosses_knot = table_steps_ && table_steps_->crosses();
     if (step > 0 && !crosses_knot && !check_step(step, preview, lane)) {
         announce_contact();
         return finish_unresolved();

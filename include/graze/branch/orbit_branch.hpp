@@ -62,6 +62,10 @@ struct BranchSettings {
     /// Continue with the new signature where events change their order, a segment vanishes or a guard chooses another
     /// mode. A grazing ends the branch in any case.
     bool reorder = true;
+    /// Number of monitors that are held at their values.
+    std::size_t fixed_monitors() const;
+    /// Number of conditions that are held: fixed monitors, the kept point, and the second condition besides it.
+    std::size_t conditions() const { return fixed_monitors() + (kept ? 1U : 0U) + (kept_too ? 1U : 0U); }
     /// @throws InputError naming the setting that is out of range
     void validate(const Model& model) const;
     /// Validates only the settings that a single orbit needs: `orbit` and `monitors`. The model may have no parameters.

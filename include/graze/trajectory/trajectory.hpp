@@ -180,6 +180,7 @@ private:
     void apply_transition(std::size_t transition, double rate);
     void add_simultaneous(std::size_t first);
     void finish_without_way(std::size_t transition);
+    void finish_otherwise(const Transition& transition, double time);
     void jump(std::size_t index);
     std::optional<std::size_t> next_mode(std::size_t transition, bool& ends);
     void enter(std::size_t jump, std::size_t mode);
