@@ -97,12 +97,13 @@ void describe_monitor(Fields& fields, One& monitor) {
 /// What varies along a family.
 template <class Fields, class Settings>
 void describe_family(Fields& fields, Settings& branch) {
-    if (!fields.has("family", branch.family.has_value()))
-        return;
-    fields.follows(branch.family, std::optional<FamilyCoordinate>(FamilyCoordinate()));
-    fields.field("family", branch.family->conserved);
-    fields.optional("family_least", branch.family_least);
-    fields.optional("family_greatest", branch.family_greatest);
+    if constexpr (Fields::stored)
+        if (fields.has("family", branch.family.has_value())) {
+            fields.follows(branch.family, std::optional<FamilyCoordinate>(FamilyCoordinate()));
+            fields.field("family", branch.family->conserved);
+            fields.optional("family_least", branch.family_least);
+            fields.optional("family_greatest", branch.family_greatest);
+        }
 }
 
 /// Along which parameters a branch is followed, and how far.
