@@ -5,6 +5,7 @@
 #include "model/contact_modes.hpp"
 #include "model/model_expressions.hpp"
 #include "model/model_validate.hpp"
+#include "model/slide_corners.hpp"
 
 #include <fmt/format.h>
 
@@ -213,6 +214,8 @@ void name_derived_modes(Model& model, const Places& places) {
     }
     for (const Slide& slide : model.slides)
         add("slides." + slide.name, slide.name);
+    for (const SlideCorner& corner : corners_of(model))
+        add("slides." + model.slides[corner.surfaces[0].above].name, corner.name);
     if (!model.contacts.empty())
         for (const std::size_t base : modes_with_contacts(model))
             for (const std::string& name : names_of_contact_modes(model, places, base))

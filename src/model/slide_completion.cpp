@@ -2,16 +2,17 @@
 // Champneys and Kowalczyk 2008, chapter 8).
 
 #include "graze/base/input_error.hpp"
+#include "model/corner_modes.hpp"
 #include "model/model_completion.hpp"
 #include "model/model_expand.hpp"
+#include "model/slide_corners.hpp"
+#include "model/slide_events.hpp"
 #include "model/surface_motion.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
-#include <optional>
-#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -31,7 +32,8 @@ struct SlidingSide {
 class SlideCompleter {
 public:
     SlideCompleter(Model& model, const Places& places)
-        : model_(model), places_(places), expander_(model), motion_(model, expander_) {}
+        : model_(model), places_(places), expander_(model), motion_(model, expander_), events_(model, places, motion_) {
+    }
 
     void run() {
         for (const Slide& slide : model_.slides)
@@ -39,11 +41,17 @@ public:
         for (const Slide& slide : model_.slides)
             meet(slide);
         const std::vector<Slide> slides = model_.slides; // modes and events are added while they are completed
+        const std::vector<SlideCorner> corners = corners_of(model_);
         set_controls(slides);
         for (const Slide& slide : slides)
             complete(slide);
+        CornerModes at_corners(model_, places_, motion_, events_);
+        for (const SlideCorner& corner : corners)
+            at_corners.add_ways(corner);
         for (const Slide& slide : slides)
-            watch_others(slide);
+            events_.watch_others(slide);
+        for (const SlideCorner& corner : corners)
+            at_corners.complete(corner);
     }
 
 private:
@@ -53,7 +61,6 @@ private:
     }
     const std::string& mode_name(std::size_t mode) const { return model_.modes[mode].name; }
     const std::string& event_name(std::size_t event) const { return model_.events[event].name; }
-    std::string rising_name(const Slide& slide) const { return event_name(slide.surface) + "-rising"; }
 
     void check(const Slide& slide) {
         if (model_.events[slide.surface].kind == EventKind::section)
@@ -87,7 +94,7 @@ private:
         const std::string path = "slides." + slide.name;
         const Event surface = model_.events[slide.surface];
         const std::size_t rising = derived_event(model_, places_, path,
-                                                 {.name = rising_name(slide),
+                                                 {.name = events_.rising_name(slide),
                                                   .text = fmt::format("'{}' from the other side", surface.name),
                                                   .function = -surface.function});
         for (const std::size_t mode : {slide.left, slide.right})
@@ -101,7 +108,7 @@ private:
         watch_in_place_of(slide.right, slide.surface, slide.surface);
         for (const auto& [mode, event, other] :
              {std::tuple(slide.left, rising, slide.surface), std::tuple(slide.right, slide.surface, rising)}) {
-            if (!met_.emplace(mode, event).second || met_.contains({mode, other}))
+            if (!events_.add_meeting(mode, event) || events_.meets(mode, other))
                 fail(slide, "between",
                      fmt::format("two slides have mode '{}' at the surface '{}'", mode_name(mode), surface.name),
                      "keep one: a mode has one neighbour at a surface");
@@ -169,7 +176,7 @@ private:
     Fields fields_of(const Slide& slide, const Expression& function) {
         Fields made;
         made.left.mode = slide.left;
-        made.left.meets = *model_.find_event(rising_name(slide));
+        made.left.meets = *model_.find_event(events_.rising_name(slide));
         made.right.mode = slide.right;
         made.right.meets = slide.surface;
         for (auto* side : {&made.left, &made.right}) {
@@ -268,122 +275,12 @@ private:
         return event;
     }
 
-    /// Makes the sliding mode watch events besides those that end it, with transitions for them.
-    void watch_others(const Slide& slide) {
-        const std::size_t sliding = *model_.find_mode(slide.name);
-        const std::size_t rising = *model_.find_event(rising_name(slide));
-        std::vector<std::size_t> watched = slide.watched.value_or(watched_by_both(slide));
-        for (const std::size_t mode : {slide.right, slide.left}) // where surfaces meet the motion must not go on
-            for (const std::size_t event : model_.modes[mode].watched)
-                if (met_.contains({mode, event}) && std::ranges::find(watched, event) == watched.end())
-                    watched.push_back(event);
-        std::erase_if(watched, [&](std::size_t event) { return event == slide.surface || event == rising; });
-        for (const std::size_t event : watched)
-            if (model_.find_transition(sliding, event) == nullptr)
-                add_shared(slide, event, sliding);
-        const auto& exits = model_.modes[sliding].slides_on.front().exits;
-        watched.insert(watched.end(), exits.begin(), exits.end());
-        model_.modes[sliding].watched = std::move(watched);
-    }
-
-    /// Returns the events that both sides watch, and barriers that one of them watches.
-    std::vector<std::size_t> watched_by_both(const Slide& slide) const {
-        const std::vector<std::size_t>&left = model_.modes[slide.left].watched,
-              &right = model_.modes[slide.right].watched;
-        const auto counts = [&](std::size_t event, const std::vector<std::size_t>& others) {
-            return model_.events[event].kind == EventKind::barrier || std::ranges::find(others, event) != others.end();
-        };
-        std::vector<std::size_t> watched;
-        for (const std::size_t event : right)
-            if (counts(event, left))
-                watched.push_back(event);
-        for (const std::size_t event : left)
-            if (counts(event, right) && std::ranges::find(watched, event) == watched.end())
-                watched.push_back(event);
-        return watched;
-    }
-
-    /// Adds the transition that both sides have for an event.
-    void add_shared(const Slide& slide, std::size_t event, std::size_t sliding) {
-        const Transition* const left = model_.find_transition(slide.left, event);
-        const Transition* const right = model_.find_transition(slide.right, event);
-        if (left == nullptr && right == nullptr && model_.events[event].kind == EventKind::section)
-            return;
-        Transition made{
-            .label = slide.name + ":" + event_name(event), .mode = sliding, .event = event, .derived = true};
-        if (met_.contains({slide.left, event}) || met_.contains({slide.right, event})) {
-            made.otherwise = fmt::format("sliding meets the surface of '{0}', of another slide, and no rule says how "
-                                         "the motion goes on: add [[transitions]] with mode = \"{1}\" and event = "
-                                         "\"{0}\"",
-                                         event_name(event), slide.name);
-            made.next = {{.when = {{model_.number(-1), true}}, .when_text = "never", .mode = std::nullopt}};
-            model_.transitions.push_back(std::move(made));
-            return;
-        }
-        const auto differ = [&] {
-            fail(slide, slide.watched ? "watch" : "between",
-                 fmt::format("'{}' and '{}' do not go on alike after the event '{}', which the slide '{}' watches",
-                             mode_name(slide.left), mode_name(slide.right), event_name(event), slide.name),
-                 fmt::format("add [[transitions]] with mode = \"{}\" and event = \"{}\", or name the events in watch",
-                             slide.name, event_name(event)));
-        };
-        if (left == nullptr || right == nullptr || left->jump != right->jump || left->next.size() != right->next.size())
-            differ();
-        made.jump = left->jump;
-        const bool moved = leaves_surface(slide, made.jump);
-        for (std::size_t i = 0; i < left->next.size(); ++i) {
-            const Alternative &one = left->next[i], &other = right->next[i];
-            const bool both_stay = one.mode == slide.left && other.mode == slide.right;
-            if (one.when != other.when || (!both_stay && one.mode != other.mode))
-                differ();
-            if (both_stay && moved)
-                add_by_side(slide, one, made, sliding);
-            else
-                made.next.push_back({one.when, one.when_text, both_stay ? std::optional(sliding) : one.mode});
-        }
-        if (left->chatter && right->chatter && left->chatter->jump == right->chatter->jump &&
-            left->chatter->mode == right->chatter->mode)
-            made.chatter = left->chatter;
-        model_.transitions.push_back(std::move(made));
-    }
-
-    /// Returns whether a jump may change the value of the surface's function.
-    bool leaves_surface(const Slide& slide, std::size_t jump) {
-        const Jump& one = model_.jumps[jump];
-        if (one.map.empty())
-            return false;
-        const Expression function = motion_.expanded(model_.events[slide.surface].function);
-        const std::vector<Expression> states = model_.state_symbols(),
-                                      images = motion_.expanded(std::vector<Expression>(one.map));
-        std::vector<Replacement> replacements;
-        for (std::size_t i = 0; i < states.size(); ++i)
-            replacements.emplace_back(states[i], images[i]);
-        return !(substitute(function, replacements) == function);
-    }
-
-    /// After a jump that may leave the surface, its side decides.
-    void add_by_side(const Slide& slide, const Alternative& alternative, Transition& made, std::size_t sliding) const {
-        const Expression& function = model_.events[slide.surface].function;
-        const auto add = [&](std::optional<Condition> condition, const std::string& text, std::size_t mode) {
-            Alternative one{alternative.when, alternative.when_text, mode};
-            if (condition) {
-                one.when.push_back(*condition);
-                one.when_text += (one.when_text.empty() ? "" : " and ") + text;
-            }
-            made.next.push_back(std::move(one));
-        };
-        const std::string& name = event_name(slide.surface);
-        add(Condition{function, true}, name + " > 0", slide.right);
-        add(Condition{-function, true}, name + " < 0", slide.left);
-        add(std::nullopt, "", sliding);
-    }
-
     Model& model_;
     const Places& places_;
     Expander expander_;
     SurfaceMotion motion_;
+    SlideEvents events_;
     std::map<std::string, std::vector<Expression>> common_; ///< rates with the control of a slide, by its name
-    std::set<std::pair<std::size_t, std::size_t>> met_;     ///< mode and event at which a slide's surface is met
 };
 
 } // namespace

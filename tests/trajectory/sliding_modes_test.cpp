@@ -151,10 +151,11 @@ TEST(SlidingModes, EndAtATwoFold) {
         Ending::end_time);
 }
 
+/// The four fields are not f + u g + v h, so that the motion along both surfaces is not unique.
 TEST(SlidingModes, EndWhereSurfacesMeet) {
     std::string text = "name = \"quadrants\"\n[states]\nx = 1\ny = 3\n[events]\nfront = \"x\"\nside = \"y\"\n";
     for (const auto& [name, rates] : {std::pair("pp", "x = -1, y = -1"), std::pair("pm", "x = -1, y = 1"),
-                                      std::pair("mp", "x = 1, y = -1"), std::pair("mm", "x = 1, y = 1")})
+                                      std::pair("mp", "x = 1, y = -1"), std::pair("mm", "x = 1, y = 2")})
         text += fmt::format("[modes.{}]\nrates = {{ {} }}\n", name, rates);
     const auto slide = [](const char* name, const char* surface, const char* left, const char* right) {
         return fmt::format("[slides.{}]\nsurface = \"{}\"\nbetween = [\"{}\", \"{}\"]\n", name, surface, left, right);
