@@ -22,8 +22,8 @@ from ._grazing import CycleMap, Grazing, MapMotion
 from ._identification import Identification, Record
 from ._layout import ComparedDevice, Layout, LumpedModel, layout, mask_layers
 from ._model import Finding, Model, load, models
-from ._model_parts import (Conserved, Contact, Contacts, Definition, Event, Friction, Jump, Mode, Parameter, Quantity,
-                           Section, Slide, State, Symmetry, Transition, parameters, states)
+from ._model_parts import (Conserved, Contact, Contacts, Definition, Event, Friction, Interpolant, Jump, Mode,
+                           Parameter, Quantity, Section, Slide, State, Symmetry, Transition, parameters, states)
 from ._model_values import Initial, Parameters
 from ._motion import Motion
 from ._plot import Figure
@@ -45,7 +45,7 @@ __all__ = [
     "Condition", "Conserved", "Contact", "Contacts", "Curve", "CycleMap", "Definition", "Design", "Ensemble", "Equilibria",
     "Error", "Estimate",
     "Estimates", "Event", "Experiment", "Expression", "Figure", "FileError", "Finding", "Friction", "Grazing",
-    "HarmonicFit", "Identification", "Initial", "InputError", "InstrumentError", "InternalError", "Interrupted",
+    "HarmonicFit", "Identification", "Initial", "InputError", "InstrumentError", "InternalError", "Interpolant", "Interrupted",
     "Jump", "Ladder", "Layout", "LocatedSolution", "LumpedModel", "MapMotion", "MeasuredRecord", "MeasuredRecords",
     "Mode", "Model", "ModelError", "Motion", "Orbit", "OrderError", "Parameter", "Parameters", "PeriodFit", "Point",
     "Quantity", "Record", "Run", "RunFailed", "Section", "Simulation", "Slide", "State", "Study", "StudyError",

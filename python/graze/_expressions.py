@@ -40,6 +40,8 @@ if TYPE_CHECKING:
         def _number(self) -> Any: ...
         @property
         def _is_symbol(self) -> bool: ...
+        @property
+        def _tables(self) -> List[Any]: ...
 else:
     Expression = _graze.Expression
 
@@ -102,15 +104,16 @@ def short(value: Any) -> str:
 class Condition:
     """One or several comparisons, all of which hold: `(x > 0) & (v <= 1)`. `text` is what a model file says."""
 
-    __slots__ = ("text",)
+    __slots__ = ("text", "tables")
 
-    def __init__(self, text: str) -> None:
+    def __init__(self, text: str, tables: Any = ()) -> None:
         self.text = text
+        self.tables = list(tables)
 
     def __and__(self, other: "Condition") -> "Condition":
         if not isinstance(other, Condition):
             return NotImplemented
-        return Condition(f"{self.text} and {other.text}")
+        return Condition(f"{self.text} and {other.text}", self.tables + other.tables)
 
     def __or__(self, other):
         raise InputError("conditions cannot be joined by `|`",
@@ -132,7 +135,7 @@ class Condition:
         return hash(self.text)
 
     def __reduce__(self):
-        return Condition, (self.text,)
+        return _condition_again, (self.text, [table.parts for table in self.tables])
 
     def __repr__(self):
         return self.text
@@ -148,7 +151,9 @@ def _operand(value):
 def _comparison(sign):
     def compare(self, other):
         text = _operand(other)
-        return NotImplemented if text is None else Condition(f"{self} {sign} {text}")
+        if text is None:
+            return NotImplemented
+        return Condition(f"{self} {sign} {text}", [table for one in (self, other) for table in getattr(one, "_tables", [])])
 
     return compare
 
@@ -239,7 +244,7 @@ _BASE, _init = _graze.Expression.__base__, _graze.Expression.__init__
 for _name, _method in {
         "__new__": _new, "__signature__": _Signature(),
         "__gt__": _comparison(">"), "__ge__": _comparison(">="), "__lt__": _comparison("<"), "__le__": _comparison("<="), "__xor__": _no_exclusive_or, "__rxor__": _no_exclusive_or, "__float__": _float,
-        "__repr__": lambda self: str(self), "__reduce__": lambda self: (expression, (str(self),)),
+        "__repr__": lambda self: str(self), "__reduce__": lambda self: (_made_again, (str(self), [table.parts for table in self._tables])),
         "derivative": _derivative, "substitute": _substitute,
         "__array_priority__": -1,  # numpy's numbers leave operations to expressions, its arrays do not
 }.items():
@@ -254,6 +259,16 @@ for _name, _written in {
         "arcsinh": "arcsinh(1)", "arccosh": "arccosh(1)", "arctanh": "arctanh(1)"}.items():
     setattr(Expression, _name, _refusal(_written))
 del _name, _method, _written
+
+
+def _condition_again(text, tables):
+    return Condition(text, [_graze.PieceTable(*parts) for parts in tables])
+
+
+def _made_again(text, tables):
+    names = dict.fromkeys(word for word in _WORD.findall(text) if word != "pi")
+    return _graze.parsed_expression(text, list(names), [_graze.PieceTable(*parts) for parts in tables])
+
 
 _WORD = re.compile(r"(?<![\w.])[A-Za-z_][A-Za-z0-9_]*(?![\w(])(?!\s*\()", re.ASCII)
 

@@ -58,6 +58,7 @@ class Model(Fixed):
     slides, friction: dicts from names to `Slide`s and `Friction`s, of which sliding modes and modes for stick and slip
         are made.
     contacts: `Contacts`, of which events, jumps and modes of closed contacts are made.
+    tables: a list of `Interpolant`s that are used in texts; expressions bring theirs with them.
     drawing: what a page shows of a motion, a dict: {"x": (-2, 2), "y": (-1, 1), "shapes": [{"kind": "box", "at": (x, 0),
         "size": (1, 0.5)}, ...]}.
     initial_mode: the mode in which the motion starts; the first one by default.
@@ -71,13 +72,13 @@ class Model(Fixed):
                  rates: Any = None, watch: Any = None, modes: Any = None, events: Any = None, jumps: Any = None,
                  transitions: Any = None, slides: Any = None, friction: Any = None, contacts: Any = None,
                  sections: Any = None, symmetries: Any = None, quantities: Any = None, conserved: Any = None,
-                 drawing: Any = None,
+                 tables: Any = None, drawing: Any = None,
                  initial_mode: Any = None, **values: Any) -> None:
         parts = {"source": source, "time_unit": time_unit, "states": states, "parameters": parameters,
                  "definitions": definitions, "rates": rates, "watch": watch, "modes": modes, "events": events,
                  "jumps": jumps, "transitions": transitions, "slides": slides, "friction": friction,
                  "contacts": contacts, "sections": sections, "symmetries": symmetries, "quantities": quantities,
-                 "conserved": conserved,
+                 "conserved": conserved, "tables": tables,
                  "drawing": drawing, "initial_mode": initial_mode}
         if rates is not None or modes is not None:
             if file is not None:

@@ -6,7 +6,7 @@ from typing import Any
 
 from ._keywords import toml_text
 from ._model_arguments import a_dict, a_list, key_of, mistake
-from ._model_lines import ModelLines, expression_text
+from ._model_lines import ModelLines
 
 EXAMPLE = 'a dict, as in {"x": (-1, 1), "y": (-1, 1), "shapes": [{"kind": "circle", "at": (x, 0), "radius": 0.1}]}'
 
@@ -22,7 +22,7 @@ def write_drawing(out: ModelLines, drawing: Any) -> None:
         if key == "text":
             out.text("text", value, "drawing")
         elif key != "shapes":
-            out.add(f"{key_of(key, label)} = {_value(value, label)}", label)
+            out.add(f"{key_of(key, label)} = {_value(out, value, label)}", label)
     for number, shape in enumerate(a_list(given.get("shapes", ()), "drawing['shapes']")):
         label = f"drawing['shapes'][{number}]"
         out.add("")
@@ -37,11 +37,11 @@ def write_drawing(out: ModelLines, drawing: Any) -> None:
                 names = ", ".join(toml_text(key_of(name, place)) for name in a_list(value, place))
                 out.add(f"modes = [{names}]", place)
             else:
-                out.add(f"{key} = {_value(value, place)}", place)
+                out.add(f"{key} = {_value(out, value, place)}", place)
 
 
-def _value(value: Any, label: str) -> str:
+def _value(out: ModelLines, value: Any, label: str) -> str:
     """A number, an expression, or a list of such."""
     if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(_value(one, label) for one in value) + "]"
-    return expression_text(value, label)
+        return "[" + ", ".join(_value(out, one, label) for one in value) + "]"
+    return out.value(value, label)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, List, Tuple
+from typing import Any, Dict, List, Tuple
 
 from ._errors import InputError
 from ._expressions import Condition, Expression, is_number, is_plain, number_of, short
@@ -16,6 +16,7 @@ class ModelLines:
     def __init__(self) -> None:
         self.lines: List[str] = []
         self.labels: List[Tuple[str, int]] = []
+        self.tables: Dict[str, Any] = {}  # that expressions look up
 
     def add(self, line: str, label: str = "", begin: int = 0) -> None:
         if not is_plain(line):
@@ -29,7 +30,36 @@ class ModelLines:
 
     def expression(self, key: str, value: Any, label: str) -> None:
         begin = len(f'{toml_key(key)} = "') + 1 if isinstance(value, str) else 0
-        self.add(f"{toml_key(key)} = {expression_text(value, label)}", label, begin)
+        self.add(f"{toml_key(key)} = {self.value(value, label)}", label, begin)
+
+    def value(self, value: Any, label: str) -> str:
+        """An expression as a value of TOML; the tables that it looks up are noted."""
+        for table in value._tables if isinstance(value, Expression) else []:
+            self.note_table(table, label)
+        return expression_text(value, label)
+
+    def condition(self, value: Any, label: str) -> str:
+        for table in value.tables if isinstance(value, Condition) else []:
+            self.note_table(table, label)
+        return toml_text(str(value))
+
+    def note_table(self, table: Any, label: str) -> None:
+        name = table.parts[0]
+        if not self.tables.setdefault(name, table) == table:
+            raise mistake(label, f"two different tables have the name '{name}'", "rename one of them")
+
+    def write_tables(self) -> None:
+        for table in self.tables.values():
+            name, points, interpolation, periodic, outside, text = table.parts
+            label = f"tables['{name}']"
+            self.header("tables", name, label=label)
+            self.text("text", text, label)
+            self.add(f"points = [{', '.join(f'[{x!r}, {f!r}]' for x, f in points)}]", f"{label}.points")
+            self.name("interpolation", interpolation, label)
+            if periodic:
+                self.add("periodic = true", label)
+            else:
+                self.name("outside", outside, label)
 
     def text(self, key: str, value: Any, label: str) -> None:
         if value is None or isinstance(value, str) and value == "":
@@ -44,7 +74,7 @@ class ModelLines:
     def matrix(self, key: str, values: List[Any], label: str) -> None:
         """Writes a list of expressions, or of lists of them."""
         def row(entries: Any, name: str) -> str:
-            return ", ".join(expression_text(one, f"{name}[{place}]") for place, one in enumerate(entries))
+            return ", ".join(self.value(one, f"{name}[{place}]") for place, one in enumerate(entries))
 
         rows = [f"[{row(one, f'{label}[{place}]')}]" if isinstance(one, (list, tuple)) else row([one], label)
                 for place, one in enumerate(values)]

@@ -3,10 +3,12 @@ which are what their fields say."""
 
 from __future__ import annotations
 
+import math
 from typing import Any, Dict, Tuple
 
+from . import _graze
 from ._errors import InputError, ModelError, as_kind
-from ._expressions import Expression, words_of
+from ._expressions import Expression, is_number, number_of, short, words_of
 
 
 class _Symbol(Expression):
@@ -179,6 +181,8 @@ class Transition(Part):
         after the jump is taken.
     chatter: how the motion goes on when contacts accumulate: the name of a mode, or a pair (jump, name).
     label: a name for signatures of orbits ("mode:event" if it is left out).
+    when: a condition on the state before the jump: of several transitions of one event in a mode the first whose
+        condition holds is made. also: names of further events that happen at the same instant.
 
     >>> x, v = states("x v")
     >>> bounce = Transition("contact", jump={v: -0.8*v}, next=[(v > 0.01, "flight"), "rest"], mode="flight")
@@ -187,9 +191,9 @@ class Transition(Part):
     _what = "a transition"
 
     def __init__(self, event: Any, *, mode: Any = None, jump: Any = None, next: Any = None, chatter: Any = None,
-                 label: str = "") -> None:
+                 label: str = "", when: Any = None, also: Any = ()) -> None:
         self.event, self.mode, self.jump, self.next = event, mode, jump, next
-        self.chatter, self.label = chatter, label
+        self.chatter, self.label, self.when, self.also = chatter, label, when, also
 
 
 class Slide(Part):
@@ -296,3 +300,55 @@ class Quantity(Part):
 
     def __init__(self, value: Any, *, unit: str = "", text: str = "") -> None:
         self.value, self.unit, self.text = value, unit, text
+
+
+class Interpolant(Part):
+    """A function of one number that is known at some points, such as a recorded input or a measured force. Called with
+    an expression it gives an expression, called with a number its value.
+
+    name: what model files call it. points: pairs (x, f) with increasing x, or an array of two columns.
+    interpolation: "linear", or "cubic" for a spline. periodic: the last point repeats the first one, a period later.
+    outside: the value beyond the points: "hold" for that at the end (the default), "linear" for the straight line
+    with the slope at the end, "error" for none, where a motion ends. text: what it is.
+
+    A model that is written with it has it in its `[tables]`. Raises ModelError for points out of order.
+
+    >>> spring = Interpolant("spring", [(-0.1, -9), (0, 0), (0.1, 9)], outside="linear")
+    >>> spring(0.05)
+    4.5
+    >>> x, v = states("x v")
+    >>> seat = Model("seat", rates={x: v, v: -spring(x) - 0.4*v})
+    """
+
+    _what = "an interpolant"
+
+    def __init__(self, name: str, points: Any, *, interpolation: str = "linear", periodic: bool = False,
+                 outside: str = "hold", text: str = "") -> None:
+        self.name, self.interpolation, self.periodic = name, interpolation, bool(periodic)
+        self.outside, self.text = outside, text
+        self.points = tuple(_point(one, number) for number, one in enumerate(points))
+        try:
+            self._made()
+        except InputError as error:
+            raise as_kind(error, ModelError) from None
+
+    def _made(self) -> Any:
+        return _graze.PieceTable(self.name, self.points, self.interpolation, self.periodic, self.outside, self.text)
+
+    def __call__(self, at: Any) -> Any:
+        if isinstance(at, Expression):
+            return self._made().look_up(at)
+        value = self._made().value(number_of(at) if is_number(at) else math.nan)
+        if math.isnan(value):
+            raise InputError(f"{self.name}({short(at)}) is no number",
+                             "give an expression, or a number at which the function is known")
+        return value
+
+
+def _point(given: Any, number: int) -> Tuple[float, float]:
+    try:
+        x, f = given
+        return number_of(x), number_of(f)
+    except (TypeError, ValueError, InputError):
+        raise ModelError(f"Interpolant(), points[{number}], {short(given)}, is no pair of numbers",
+                         "give pairs (x, f), or an array of two columns") from None

@@ -14,8 +14,8 @@ from ._keywords import toml_text
 from ._model_arguments import a_dict, a_list, key_of, mistake, part_of
 from ._model_drawing import write_drawing
 from ._model_lines import ModelLines
-from ._model_parts import (Conserved, Contact, Contacts, Definition, Event, Friction, Jump, Mode, Parameter, Quantity,
-                           Section, Slide, State, Symmetry, Transition)
+from ._model_parts import (Conserved, Contact, Contacts, Definition, Event, Friction, Interpolant, Jump, Mode, Parameter,
+                           Quantity, Section, Slide, State, Symmetry, Transition)
 
 FILE = "model written in Python"
 ONLY_MODE = "motion"
@@ -27,9 +27,9 @@ class WrittenModel:
     def __init__(self, name: Any, *, text: Any, source: Any, time_unit: Any, states: Any, parameters: Any,
                  definitions: Any, rates: Any, watch: Any, modes: Any, events: Any, jumps: Any, transitions: Any,
                  slides: Any, friction: Any, contacts: Any, sections: Any, symmetries: Any, quantities: Any,
-                 conserved: Any, drawing: Any,
-                 initial_mode: Any) -> None:
+                 conserved: Any, tables: Any, drawing: Any, initial_mode: Any) -> None:
         self._out = ModelLines()
+        self._read_tables(tables)
         self._modes = self._read_modes(rates, watch, modes)
         self._single = rates is not None
         for key, value in {"name": "model" if name is None else name, "text": text, "source": source,
@@ -55,6 +55,7 @@ class WrittenModel:
         self._write_quantities(quantities)
         self._write_conserved(conserved)
         write_drawing(self._out, drawing)
+        self._out.write_tables()
         self._out.header("initial", label="initial_mode")
         first = next(iter(self._modes), "") if initial_mode is None else initial_mode
         self._out.name("mode", first, "initial_mode")
@@ -155,9 +156,13 @@ class WrittenModel:
                     raise mistake(label, "the transition does not say in which mode it is", "give mode=...")
                 mode = next(iter(self._modes))
             jump = self._jump_name(one.jump, event, f"{label}.jump")
+            also = [one.also] if isinstance(one.also, (str, Expression)) else a_list(one.also, f"{label}.also")
+            if one.when is not None and not isinstance(one.when, (Condition, str)):
+                raise mistake(f"{label}.when", f"{short(one.when)} is no condition", "compare expressions by < <= > >=")
             result.append((label, Transition(event, mode=key_of(mode, f"{label}.mode"), jump=jump, label=one.label,
                                              next=self._read_next(one.next, mode, f"{label}.next"),
-                                             chatter=self._read_chatter(one.chatter, event, f"{label}.chatter"))))
+                                             chatter=self._read_chatter(one.chatter, event, f"{label}.chatter"),
+                                             when=one.when, also=also)))
         return result
 
     def _read_next(self, given: Any, mode: Any, label: str) -> Any:
@@ -231,6 +236,16 @@ class WrittenModel:
             if drifting:
                 out.add("drifting = true", f"{label}.drifting")
 
+    def _read_tables(self, given: Any) -> None:
+        """Tables that are used in texts; expressions bring theirs with them."""
+        if given is None:
+            return
+        for number, one in enumerate([given] if isinstance(given, Interpolant) else a_list(given, "tables")):
+            label = f"tables[{number}]"
+            if not isinstance(one, Interpolant):
+                raise mistake(label, f"{short(one)} is no graze.Interpolant", "give graze.Interpolant(name, points)")
+            self._out.note_table(one._made(), label)
+
     def _write_map(self, given: Any, label: str) -> None:
         for name, value in a_dict(given, label, "a dict from states to expressions").items():
             self._out.expression(name, value, f"{label}['{name}']")
@@ -294,6 +309,11 @@ class WrittenModel:
             out.name("mode", one.mode, f"{label}.mode")
             out.name("event", one.event, f"{label}.event")
             out.text("label", one.label, label)
+            if one.when is not None:
+                begin = len('when = "') + 1 if isinstance(one.when, str) else 0
+                out.add(f"when = {out.condition(one.when, label)}", f"{label}.when", begin)
+            if one.also:
+                self._names("also", one.also, f"{label}.also")
             if one.jump is not None:
                 out.name("jump", one.jump, f"{label}.jump")
             if isinstance(one.next, str):
@@ -301,7 +321,7 @@ class WrittenModel:
             else:
                 out.add("next = [", f"{label}.next")
                 for number, (when, mode) in enumerate(one.next):
-                    condition = "" if when is None else f"when = {toml_text(str(when))}, "
+                    condition = "" if when is None else f"when = {out.condition(when, label)}, "
                     out.add(f"    {{ {condition}mode = {toml_text(mode)} }},", f"{label}.next[{number}]",
                             len('    { when = "') + 1 if isinstance(when, str) else 0)
                 out.add("]", f"{label}.next")

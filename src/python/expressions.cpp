@@ -1,13 +1,19 @@
 #include "graze/base/input_error.hpp"
 #include "graze/symbolic/expression.hpp"
 #include "graze/symbolic/parser.hpp"
+#include "graze/symbolic/piece_table.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "python/binding.hpp"
 #include "symbolic/subgraph.hpp"
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <initializer_list>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace graze::python {
 
@@ -71,8 +77,77 @@ Expression symbol(const std::string& name) {
     return Graph::create()->symbol(name);
 }
 
-Expression parsed(const std::string& text, const std::vector<std::string>& names) {
+/// A table as Python holds it.
+struct HeldTable {
+    std::shared_ptr<const PieceTable> table;
+};
+
+constexpr std::array<const char*, 2> interpolations{"linear", "cubic"};
+constexpr std::array<const char*, 3> beyond_ends{"hold", "linear", "error"};
+
+template <class Words>
+std::size_t place_of(const Words& words, const std::string& word, const char* what) {
+    const auto place = std::ranges::find(words, word);
+    if (place == words.end()) {
+        std::string all;
+        for (const char* one : words)
+            all += std::string(all.empty() ? "" : one == words.back() ? " or " : ", ") + "'" + one + "'";
+        throw InputError(std::string(what) + " '" + word + "' is not known", "give " + all);
+    }
+    return static_cast<std::size_t>(place - words.begin());
+}
+
+HeldTable held_table(const std::string& name, const std::vector<std::pair<double, double>>& points,
+                     const std::string& interpolation, bool periodic, const std::string& outside,
+                     const std::string& text) {
+    symbol(name); // throws for what is no name
+    std::vector<PieceTable::Point> made;
+    made.reserve(points.size());
+    for (const auto& [x, y] : points)
+        made.push_back({x, y});
+    const PieceTable::Options options{
+        .interpolation =
+            static_cast<PieceTable::Interpolation>(place_of(interpolations, interpolation, "the interpolation")),
+        .periodic = periodic,
+        .outside = static_cast<PieceTable::Outside>(place_of(beyond_ends, outside, "outside,"))};
+    return {std::make_shared<const PieceTable>(name, std::move(made), options, text)};
+}
+
+py::tuple parts_of(const HeldTable& self) {
+    py::list points;
+    for (const PieceTable::Point& one : self.table->points())
+        points.append(py::make_tuple(one.x, one.y));
+    const PieceTable::Options& options = self.table->options();
+    return py::make_tuple(self.table->name(), points, interpolations[static_cast<std::size_t>(options.interpolation)],
+                          options.periodic, beyond_ends[static_cast<std::size_t>(options.outside)],
+                          self.table->text());
+}
+
+Expression looked_up(const HeldTable& self, const Expression& at) {
+    // In a graph of its own: another expression of the given graph may look up another table of this name.
+    const std::shared_ptr<Graph> graph = Graph::create();
+    const Expression own = made_in(*graph, at);
+    return graph->look_up(graph->add_table(self.table), 0, own);
+}
+
+std::vector<HeldTable> tables_of(const Expression& given) {
+    const Subgraph part = subgraph_of(std::span(&given, 1));
+    std::vector<HeldTable> tables;
+    std::vector<bool> used(part.graph->tables().size());
+    for (const Subgraph::Item& item : part.items)
+        if (const Node& node = part.node(item); node.operation == Operation::lookup)
+            used[Graph::lookup_of(node).table] = true;
+    for (std::size_t i = 0; i < used.size(); ++i)
+        if (used[i])
+            tables.push_back({part.graph->tables()[i]});
+    return tables;
+}
+
+Expression parsed(const std::string& text, const std::vector<std::string>& names,
+                  const std::vector<HeldTable>& tables) {
     const auto graph = Graph::create();
+    for (const HeldTable& one : tables)
+        graph->add_table(one.table);
     Scope scope;
     for (const std::string& name : names)
         scope.emplace(name, graph->symbol(name));
@@ -195,7 +270,20 @@ void bind_expressions(py::module_& module) {
     });
     type.def_property_readonly("_is_symbol", [](const Expression& one) { return one.is_symbol(); });
 
-    module.def("parsed_expression", &parsed, py::arg("text"), py::arg("names"));
+    py::class_<HeldTable>(module, "PieceTable")
+        .def(py::init(&held_table), py::arg("name"), py::arg("points"), py::arg("interpolation"), py::arg("periodic"),
+             py::arg("outside"), py::arg("text"))
+        .def("look_up", &looked_up, py::arg("at"))
+        .def(
+            "value", [](const HeldTable& self, double x) { return self.table->value(x, 0); }, py::arg("x"))
+        .def_property_readonly("parts", &parts_of)
+        .def(
+            "__eq__", [](const HeldTable& self, const HeldTable& other) { return *self.table == *other.table; },
+            py::is_operator());
+    type.def_property_readonly("_tables", &tables_of);
+
+    module.def("parsed_expression", &parsed, py::arg("text"), py::arg("names"),
+               py::arg("tables") = std::vector<HeldTable>());
     module.def("symbol", &symbol, py::arg("name"));
     module.def("number", &number, py::arg("value"));
 }

@@ -18,7 +18,7 @@ GROUPS = {
     "Models": ["Model", "load", "models", "Parameters", "Initial", "Finding"],
     "Parts of models written in Python": ["states", "parameters", "State", "Parameter", "Definition", "Mode", "Event", "Jump",
                                           "Transition", "Slide", "Friction", "Contact", "Contacts", "Section",
-                                          "Symmetry", "Quantity", "Conserved"],
+                                          "Symmetry", "Quantity", "Conserved", "Interpolant"],
     "Expressions": ["symbols", "expression", "Expression", "Condition", "sqrt", "exp", "log", "sin", "cos", "tan", "asin",
                     "acos", "atan", "sinh", "cosh", "tanh", "erf"],
     "One motion": ["simulate", "Simulation", "Motion"],
