@@ -88,14 +88,17 @@ public:
 private:
     /// Chooses units that balance rows and columns of the derivatives (E. E. Osborne 1960). The scales of the orbit are
     /// arbitrary for constant states, and where the units of position and velocity do not match, every oscillation
-    /// would look like a contraction.
+    /// would look like a contraction. What may be round-off must not count: the rate of a clock depends on no state,
+    /// and units that balance its round-off would make that as large as the derivatives (D. S. Watkins 2006).
     void balance() {
         constexpr int sweeps = 4;
-        constexpr double farthest = 1e12;
+        constexpr double farthest = 1e12, round_off = 1e-13; // of an element, relative to its row
         const Eigen::Index n = units_.size();
         Eigen::MatrixXd sizes = Eigen::MatrixXd::Zero(n, n);
         for (const OrbitEvaluation::Piece& piece : at_->pieces)
-            sizes += restricted(piece.flow).cwiseAbs();
+            if (const Eigen::MatrixXd one = restricted(piece.flow).cwiseAbs(); n > 0)
+                sizes.array() +=
+                    (one.array() > round_off * one.rowwise().maxCoeff().replicate(1, n).array()).select(one.array(), 0);
         if (!sizes.allFinite())
             return;
         sizes.diagonal().setZero();
