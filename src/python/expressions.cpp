@@ -119,8 +119,7 @@ py::tuple parts_of(const HeldTable& self) {
         points.append(py::make_tuple(one.x, one.y));
     const PieceTable::Options& options = self.table->options();
     return py::make_tuple(self.table->name(), points, interpolations[static_cast<std::size_t>(options.interpolation)],
-                          options.periodic, beyond_ends[static_cast<std::size_t>(options.outside)],
-                          self.table->text());
+                          options.periodic, beyond_ends[static_cast<std::size_t>(options.outside)], self.table->text());
 }
 
 Expression looked_up(const HeldTable& self, const Expression& at) {

@@ -119,7 +119,8 @@ TEST(PowerLaw, MultipliersOfAForcedContactAreThoseOfAnotherIntegrator) {
                       ModeFlow::Ending::done);
             loss += state[3] - before;
         }
-        EXPECT_NEAR(std::abs(solution.multipliers[0] * solution.multipliers[1] - std::exp(-loss)), 0, 1e-13) << exponent;
+        EXPECT_NEAR(std::abs(solution.multipliers[0] * solution.multipliers[1] - std::exp(-loss)), 0, 1e-13)
+            << exponent;
         EXPECT_TRUE(solution.certificate.admissible) << solution.certificate.reason;
     }
 }
