@@ -118,23 +118,30 @@ struct LargestShares {
 };
 inline constexpr LargestShares largest_share;
 
-/// Shortens the step of one lane until the terms do not grow at the end of any series.
+/// Shortens the step of one lane until the terms do not grow at the end of any series: the last two must be smaller
+/// than the two before or, where a series has gaps there, such as that of x' = x^3 near zero, than earlier ones.
 inline double shortened(const Series* series, std::size_t count, std::size_t order, int lane, double step) {
+    constexpr std::size_t most_pairs = 4; // of earlier terms: gaps of up to seven terms
     for (std::size_t i = 0; i < count; ++i) {
         const auto size_at = [&](std::size_t k) {
             return __builtin_fabs(series[i].first[k * series[i].stride + static_cast<std::size_t>(lane)]);
         };
-        const double last = size_at(order), before = size_at(order - 1);
-        const double earlier = size_at(order - 2), first = size_at(order - 3);
-        if (earlier == 0 && first == 0)
-            continue;
-        if (integer_power(step, static_cast<int>(order) - 3) * greater(earlier * step, first) < smallest_size)
+        // The terms of two orders, divided by a power of the step.
+        const auto pair_at = [&](std::size_t k) { return greater(size_at(k) * step, size_at(k - 1)); };
+        const double earlier = pair_at(order - 2);
+        if (earlier == 0 || integer_power(step, static_cast<int>(order) - 3) * earlier < smallest_size)
             continue;
         for (int sweep = 0; sweep < 20; ++sweep) {
-            const double end = greater(last * step, before) * step * step, start = greater(earlier * step, first);
-            if (!(end > largest_growth * start))
+            double end = pair_at(order), allowed = 1, factor = 0; // that makes the last terms as small as needed
+            for (std::size_t k = 1; k <= most_pairs && 2 * k < order && factor < 1; ++k) {
+                end *= step * step;
+                allowed *= largest_growth;
+                const double start = allowed * pair_at(order - 2 * k);
+                factor = greater(factor, end > start ? ::pow(0.9 * start / end, 0.5 / static_cast<double>(k)) : 1);
+            }
+            if (factor == 1)
                 break;
-            step *= ::sqrt(0.9 * largest_growth * start / end);
+            step *= factor;
         }
     }
     return step;

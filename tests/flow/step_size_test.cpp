@@ -147,4 +147,20 @@ TEST(StepSize, GrowingTermsShortenTheStep) {
     EXPECT_LT(h, 0.3);
 }
 
+/// The series of x'' = x^n from almost zero has n terms of round-off between those that count.
+TEST(StepSize, GapsThatAreRoundOffDoNotLimitTheStep) {
+    for (const int gap : {2, 3, 4, 5, 6, 7})
+        for (const int order : {12, 17, 20}) {
+            Coefficients exact = geometric(order, 1, 1), round_off = exact;
+            for (int k = 0; k <= order; ++k)
+                if (k % gap != 0) {
+                    exact[static_cast<std::size_t>(k)] = 0;
+                    round_off[static_cast<std::size_t>(k)] *= 1e-18;
+                }
+            const double wanted = step({exact}, 1e-12, 0.1);
+            EXPECT_GE(step({round_off}, 1e-12, 0.1), 0.5 * wanted) << gap << ' ' << order;
+            EXPECT_LE(step({round_off}, 1e-12, 0.1), 1) << gap << ' ' << order;
+        }
+}
+
 } // namespace graze::step_size_test

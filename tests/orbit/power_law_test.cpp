@@ -37,7 +37,8 @@ TEST(PowerLaw, OscillatorsHaveThePeriodOfTheBetaFunction) {
         const char* text;
         double power;
     };
-    for (const auto& [text, p] : {Law{"1.5", 1.5}, Law{"0.5", 0.5}, Law{"(1/3)", 1.0 / 3}, Law{"pi", std::acos(-1.0)}})
+    for (const auto& [text, p] : {Law{"1.5", 1.5}, Law{"0.5", 0.5}, Law{"(1/3)", 1.0 / 3}, Law{"pi", std::acos(-1.0)},
+                                  Law{"2", 2}, Law{"3", 3}, Law{"7", 7}})
         for (const double v : {1.0, 0.02}) {
             const Model model = oscillator(text);
             const double half = half_period(p, 3, v);
