@@ -139,13 +139,13 @@ TEST(Signature, LabelsOfDerivedTransitionsCanBeWritten) {
     }
 }
 
-/// The event of contacts that close at once is that of one of them.
+/// The event of contacts that close at once is that of one of them. Their transitions come first.
 TEST(Signature, ALabelComesBeforeAnEventOfTheSameName) {
     const Model model = parse_model(smooth_corner, "m.toml");
-    for (const char* label : {"free:floor", "free:wall", "free:floor-wall"})
+    for (const char* label : {"free:floor", "free:wall", "free:floor-wall:floor-wall", "free:floor-wall:none"})
         EXPECT_EQ(end_name(model, parse_signature(model, label)[0]), label);
-    EXPECT_EQ(to_string(model, parse_signature(model, "free:floor*, free-floor:wall^2, free-floor:floor-opens")),
-              "free:floor* free-floor:wall^2 free-floor:floor-opens");
+    EXPECT_EQ(to_string(model, parse_signature(model, "free:floor*, free-floor:wall:wall^2, free-floor:floor-opens")),
+              "free:floor* free-floor:wall:wall^2 free-floor:floor-opens");
 }
 
 } // namespace graze::signature_test
