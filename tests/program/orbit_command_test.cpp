@@ -75,6 +75,8 @@ TEST_F(OrbitCommand, AnotherRunCanStartFromTheCsv) {
 
 /// Laws of friction, contacts and slides make names with hyphens.
 TEST_F(OrbitCommand, AnotherRunCanStartFromTheCsvOfDerivedModes) {
+    OrbitRecord record = orbit_of("up", PointType::end, 1, true, true);
+    record.point.monitors = {};
     model = parse_model(R"(
 parameters.mu = 0.5
 states = { x = 0, v = 0, s = { initial = 0, period = 4 } }
@@ -82,8 +84,6 @@ modes.free.rates = { x = "v", v = "2*cos(pi*s/2) - x - ground", s = 1 }
 friction.ground = { velocity = "v", normal = 1, coefficient = "mu" }
 )",
                         "rubbing.toml");
-    OrbitRecord record = orbit_of("up", PointType::end, 1, true, true);
-    record.point.monitors = {};
     RunRecord run = run_of("rubbing", "continue");
     run.coordinates = {{"mu", ""}};
     run.values = {};
