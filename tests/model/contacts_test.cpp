@@ -210,6 +210,10 @@ TEST(ContactDeclarations, TellMistakes) {
     expect(with(corner, "[modes.free]\n", "[modes.free]\nforces = { u = 1, v = 2, x = 0 }\n"),
            "m.toml:10:1: mode 'free' has a force on a state that impulses do not change, 'x'; give a force for each "
            "of contacts.velocities and no other state, or the rates instead");
+    expect(with(corner, "gap = \"x\"", "gap = \"2 - y\"") + "[initial]\nmode = \"free-floor-stick-wall\"\n",
+           "m.toml:24:8: the mode 'free-floor-stick-wall' does not exist: at the initial state its contacts cannot be "
+           "closed at once; name one of 'free', 'free-wall', 'free-floor-stick', 'free-floor-forward', "
+           "'free-floor-backward'");
     expect(with(corner, "[modes.free]\n", "[modes.free]\nforces = { u = 1, v = 2 }\n"),
            "m.toml:10:1: mode 'free' has both a rate and a force for 'u'; keep one of the two");
     expect(
