@@ -86,6 +86,7 @@ friction.ground = { velocity = "v", normal = 1, coefficient = "mu" }
                         "rubbing.toml");
     RunRecord run = run_of("rubbing", "continue");
     run.coordinates = {{"mu", ""}};
+    run.states = {{"x", ""}, {"v", ""}, {"s", ""}};
     run.values = {};
     Orbit& orbit = record.point.solution.orbit;
     orbit.signature =
