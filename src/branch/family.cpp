@@ -165,8 +165,10 @@ void require_no_family(const BranchSettings& settings) {
             throw InputError(why, "choose parameters at which it is, or correct the declaration");
     if (!why_none.empty())
         throw InputError(fmt::format("no orbit of a family was found: {}", why_none), "start nearer to an orbit");
-    throw InputError(fmt::format("the orbit is not one of a family along '{}' at the same parameters", family.name()),
-                     "follow a parameter of the model");
+    throw InputError(
+        fmt::format("the orbit is isolated at its parameters: it is not one of a family along '{}'", family.name()),
+        "take out what adds or removes energy, such as damping and forcing, start from another orbit, or "
+        "follow a parameter of the model");
 }
 
 std::vector<ParameterId> last_parameters(const Model& model, std::size_t count) {

@@ -5,6 +5,8 @@
 #include "graze/base/input_error.hpp"
 #include "orbit/newton.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <iterator>
 
@@ -47,7 +49,9 @@ Eigen::RowVectorXd rise_along_family(const OrbitProblem& problem, const BranchSe
         coordinate.kind == Monitor::Kind::conserved ? std::optional(std::size_t{0}) : std::nullopt;
     OrbitQuantity quantity = OrbitQuantity::of_monitor(problem.equations(), coordinate, first, 0);
     if (!quantity.evaluate(problem.equations(), problem.evaluation()))
-        throw InputError("the family has no coordinate there", "try another point");
+        throw InputError(
+            fmt::format("'{}', along which the family is followed, has no value at this orbit", coordinate.name),
+            "start from another orbit nearby, by its number");
     return quantity.gradient();
 }
 

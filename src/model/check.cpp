@@ -50,7 +50,8 @@ public:
             warnings_.push_back({"", std::move(warning)});
         for (std::size_t i = 0; i < model_.conserved.size(); ++i)
             if (std::string why = why_not_conserved(model_, i); !why.empty())
-                warnings_.push_back({"", std::move(why)});
+                warnings_.push_back({"", why + "; give this mode its own expression in `modes`, set what loses or "
+                                               "gains to zero, such as damping, or remove the declaration"});
         return std::move(warnings_);
     }
 

@@ -328,7 +328,7 @@ bool conserves_something(const Model& model, std::span<const double> parameters)
     return false;
 }
 
-std::vector<std::size_t> phase_free_states(const Model& model) {
+std::vector<std::size_t> ignorable_states(const Model& model) {
     const Dependencies dependencies(model);
     std::vector<std::size_t> result;
     for (std::size_t i = 0; i < model.states.size(); ++i)
@@ -337,10 +337,10 @@ std::vector<std::size_t> phase_free_states(const Model& model) {
     return result;
 }
 
-void let_phase_free_states_drift(Model& model) {
+void let_ignorable_states_drift(Model& model) {
     if (model.conserved.empty())
         return;
-    for (const std::size_t i : phase_free_states(model))
+    for (const std::size_t i : ignorable_states(model))
         if (!model.states[i].period)
             model.states[i].drifting = true;
     constexpr std::size_t most_states = 60; // beyond, pairs are not tried

@@ -21,7 +21,7 @@ void check_contacts(const Model& model, const Places& places) {
     const ContactSettings& settings = model.contact_settings;
     const std::size_t n = settings.velocities.size();
     if (n == 0)
-        fail("contacts.velocities", "contacts change no velocity", "name the states that impulses change");
+        fail("contacts.velocities", "contacts.velocities names no state", "name the velocities that impulses change");
     if (std::set(settings.velocities.begin(), settings.velocities.end()).size() != n)
         fail("contacts.velocities", "a velocity is named twice", "remove one of the two");
     if (settings.mass.size() != n && settings.mass.size() != n * n)

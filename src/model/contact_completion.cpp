@@ -8,6 +8,7 @@
 #include "model/model_completion.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
@@ -62,13 +63,22 @@ private:
             for (const ContactStates& states : all_states())
                 if (const auto mode = model_.find_mode(modes_.mode_name(base, states)); mode && named.contains(*mode)) {
                     if (!modes_.possible(base, states))
-                        fail(*mode == model_.initial_mode ? "initial.mode" : "transitions",
-                             fmt::format("the mode '{}' cannot be: its contacts cannot be closed at once, or stick in "
-                                         "more directions than the velocities have",
-                                         mode_name(*mode)),
-                             "name another mode");
+                        refuse_mode(*mode, base, states);
                     modes_.variant(base, states);
                 }
+    }
+
+    [[noreturn]] void refuse_mode(std::size_t mode, std::size_t base, const ContactStates& states) {
+        std::vector<std::string> names;
+        for (const ContactStates& others : all_states())
+            if (modes_.possible(base, others))
+                names.push_back(fmt::format("'{}'", modes_.mode_name(base, others)));
+        fail(mode == model_.initial_mode ? "initial.mode" : "transitions",
+             fmt::format("the mode '{}' does not exist: at the initial state its contacts {}", mode_name(mode),
+                         modes_.possible(base, without_friction(states))
+                             ? "stick in more directions than the velocities have"
+                             : "cannot be closed at once"),
+             fmt::format("name one of {}", fmt::join(names, ", ")));
     }
 
     std::vector<ContactStates> all_states() const {
@@ -272,7 +282,7 @@ private:
         return fmt::format("after '{}' no combination of closed contacts, rest and slip is consistent{}", what,
                            has_friction() ? ": Painlevé's paradox of rigid bodies with friction; end the motion before "
                                             "by an event, or take a smaller coefficient of friction"
-                                          : ": look at the mass matrix, which must be positive definite");
+                                          : ": the mass matrix is not positive definite there; correct `mass`");
     }
 
     // --- ends of contact, rest and slip
@@ -494,9 +504,11 @@ private:
             std::vector<std::size_t> images;
             for (std::size_t mode = 0; mode < symmetry.modes.size(); ++mode) {
                 if (model_.modes[mode].rates.empty() != model_.modes[symmetry.modes[mode]].rates.empty())
-                    fail("symmetries." + symmetry.name + ".modes",
-                         fmt::format("the symmetry '{}' takes a mode of contacts to one that cannot be", symmetry.name),
-                         "look at the modes that `graze check` shows");
+                    fail(
+                        "symmetries." + symmetry.name + ".modes",
+                        fmt::format("the symmetry '{}' takes the mode '{}' to '{}', and contacts make only one of them",
+                                    symmetry.name, model_.modes[mode].name, mode_name(symmetry.modes[mode])),
+                        "correct the images of modes, or the gaps so that the symmetry holds for them");
                 if (!model_.modes[mode].rates.empty())
                     images.push_back(symmetry.modes[mode]);
             }

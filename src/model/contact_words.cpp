@@ -18,7 +18,7 @@ namespace graze {
 namespace {
 
 /// Returns pairs of contacts that may be closed at once and of which an impulse in one changes the velocity of the
-/// other: what an impact of both does depends on their order.
+/// other: what an impact of both does depends on the law.
 std::vector<std::string> coupled_contacts(const Model& model) {
     Model declared = declared_model(model);
     Expander expander(declared);
@@ -60,8 +60,9 @@ std::vector<std::string> contact_remarks(const Model& model) {
     const std::string handled =
         settings.law == ImpactLaw::sequence ? "one after another, in the order of the file" : "all at once";
     for (const std::string& pair : coupled_contacts(model))
-        remarks.push_back(fmt::format(
-            "{} act on each other: impacts of both depend on the order; this law takes them {}", pair, handled));
+        remarks.push_back(fmt::format("{} are coupled by the mass matrix: what an impact of both does depends on the "
+                                      "law; this one takes them {}",
+                                      pair, handled));
     return remarks;
 }
 

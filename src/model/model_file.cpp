@@ -84,7 +84,7 @@ public:
         mistakes_.throw_noted();
         complete_model(model_, places_);
         validate_model(model_, places_);
-        let_phase_free_states_drift(model_);
+        let_ignorable_states_drift(model_);
         return std::move(model_);
     }
 

@@ -70,18 +70,29 @@ bool ContactParts::has_force(std::size_t mode, std::size_t state) const {
 /// Forces stand for the rates of all velocities that contacts change.
 void ContactParts::set_accelerations() {
     const ContactSettings& settings = model_.contact_settings;
-    for (const auto& [mode, given] : forces_) {
-        std::vector<Expression> forces;
-        for (const std::size_t velocity : settings.velocities)
-            if (!given.of_states[velocity].empty())
-                forces.push_back(given.of_states[velocity]);
-        const auto count = std::ranges::count_if(given.of_states, [](const Expression& one) { return !one.empty(); });
-        if (forces.empty() || forces.size() != settings.velocities.size() ||
-            forces.size() != static_cast<std::size_t>(count))
+    for (const auto& one : forces_) {
+        const std::size_t mode = one.first;
+        const ModeForces& given = one.second;
+        if (settings.velocities.empty())
             throw InputError(given.place,
-                             fmt::format("the forces of mode '{}' are not those on the velocities of [contacts]",
+                             fmt::format("mode '{}' has forces, and no contacts.velocities say on what they act",
                                          model_.modes[mode].name),
-                             "give one for each of these velocities, or the rates instead");
+                             "give rates, or name the velocities in [contacts]");
+        std::vector<Expression> forces;
+        const auto refuse = [&](std::size_t state, const char* what) {
+            throw InputError(
+                given.place,
+                fmt::format("mode '{}' has {} '{}'", model_.modes[mode].name, what, model_.states[state].name),
+                "give a force for each of contacts.velocities and no other state, or the rates instead");
+        };
+        for (const std::size_t velocity : settings.velocities)
+            if (given.of_states[velocity].empty())
+                refuse(velocity, "no force on the velocity");
+            else
+                forces.push_back(given.of_states[velocity]);
+        for (std::size_t state = 0; state < given.of_states.size(); ++state)
+            if (!given.of_states[state].empty() && std::ranges::count(settings.velocities, state) == 0)
+                refuse(state, "a force on a state that impulses do not change,");
         const std::vector<Expression> accelerations = accelerations_by(settings.mass, forces);
         for (std::size_t i = 0; i < forces.size(); ++i) {
             Expression& rate = model_.modes[mode].rates[settings.velocities[i]];

@@ -97,7 +97,7 @@ std::vector<PieceTable::Point> TableParts::points_of_file(const TomlEntry& entry
     const std::string name = reader_.string(entry);
     if (!folder_)
         throw InputError(reader_.place(*entry.node),
-                         fmt::format("the table '{}' cannot be read: the model is not read from a file", name),
+                         fmt::format("the file '{}' of a table cannot be read: the model itself is in no file", name),
                          "write its points into the model, as points = [[x, f], ...]");
     std::string path;
     try {

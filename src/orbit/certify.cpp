@@ -112,9 +112,10 @@ public:
         std::ranges::stable_sort(result, [](const OrbitMinimum& a, const OrbitMinimum& b) { return a.time < b.time; });
         return result;
     }
+    /// True for the event that ends the segment, by whichever of its transitions.
     bool is_own(std::size_t w) const {
-        const Segment& segment = equations_->signature()[segment_];
-        return transition_of(equations_->model(), segment) && mode_->transitions[w] == segment.index;
+        const Transition* const own = transition_of(equations_->model(), equations_->signature()[segment_]);
+        return own && own->event == mode_->watched[w];
     }
     bool is_identity(std::size_t w) const { return identity_[w]; }
     /// Sizes of the functions along the arc. A flight of a chatter sequence has those of the flights before it: its own

@@ -6,9 +6,11 @@
 #include "graze/base/require.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 
 namespace graze {
 
@@ -95,8 +97,8 @@ public:
 
 private:
     static bool is_name(char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == ':' ||
-               c == cut_name().front() || c == chatter_mark().front();
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
+               c == ':' || c == cut_name().front() || c == chatter_mark().front();
     }
     void skip() {
         while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == ',' || text_[at_] == '\t'))
@@ -127,7 +129,8 @@ private:
     std::size_t at_ = 0;
 };
 
-/// Returns all segments that a name may denote.
+/// Returns all segments that a name may denote. A label comes before an event of the same name: contacts that close one
+/// by one and at once have the labels `free:floor` and `free:floor-wall`, and both are the event `floor` of `free`.
 std::vector<Segment> candidates(const Model& model, const std::string& name) {
     std::vector<Segment> result;
     const auto colon = name.find(':');
@@ -143,13 +146,15 @@ std::vector<Segment> candidates(const Model& model, const std::string& name) {
             }
         return result;
     }
-    for (std::size_t t = 0; t < model.transitions.size(); ++t) {
-        const Transition& transition = model.transitions[t];
-        if (transition.label == name ||
-            ((!mode || transition.mode == *mode) &&
-             (transition.label == rest || (mode && model.events[transition.event].name == rest))))
-            result.push_back({transition.mode, SegmentEnd::event, t});
-    }
+    const auto matches = [&](const Transition& transition, bool by_label) {
+        const bool in_mode = !mode || transition.mode == *mode;
+        const bool labelled = transition.label == name || (in_mode && transition.label == rest);
+        return by_label ? labelled : !labelled && mode && in_mode && model.events[transition.event].name == rest;
+    };
+    for (const bool by_label : {true, false})
+        for (std::size_t t = 0; t < model.transitions.size(); ++t)
+            if (matches(model.transitions[t], by_label))
+                result.push_back({model.transitions[t].mode, SegmentEnd::event, t});
     if (const auto section = model.find_section(rest))
         for (std::size_t m = 0; m < model.modes.size(); ++m)
             if (!mode || m == *mode)
@@ -169,6 +174,35 @@ bool can_follow(const Model& model, const Segment& before, const Segment& after)
         return model.transitions[before.index].chatter->mode == after.mode;
     return before.end == SegmentEnd::event ? can_lead_to(model.transitions[before.index], after.mode)
                                            : before.mode == after.mode;
+}
+
+/// Says why places, of which each can follow the one before, make no cycle.
+std::string why_no_cycle(const Model& model, const std::vector<Name>& names,
+                         const std::vector<std::vector<Segment>>& places) {
+    std::vector<Segment> reached = places.front();
+    for (std::size_t k = 1; k <= places.size(); ++k) {
+        const std::size_t place = k % places.size();
+        const auto can_come = [&](const Segment& after) {
+            return std::ranges::any_of(reached, [&](const Segment& one) { return can_follow(model, one, after); });
+        };
+        std::vector<Segment> next;
+        std::ranges::copy_if(places[place], std::back_inserter(next), can_come);
+        if (next.empty()) {
+            std::vector<std::string> after, wanted;
+            for (std::size_t m = 0; m < model.modes.size(); ++m) {
+                if (can_come({m, SegmentEnd::cut, 0}))
+                    after.push_back(fmt::format("'{}'", model.modes[m].name));
+                if (std::ranges::find(places[place], m, &Segment::mode) != places[place].end())
+                    wanted.push_back(fmt::format("'{}'", model.modes[m].name));
+            }
+            return fmt::format(
+                "'{}' {}, and '{}', {}, is in {}", names[k - 1].text,
+                after.empty() ? "ends the motion" : fmt::format("leads to mode {}", fmt::join(after, " or ")),
+                names[place].text, place == 0 ? "the first segment" : "which follows", fmt::join(wanted, " or "));
+        }
+        reached = std::move(next);
+    }
+    return "no cycle of the model's graph has these transitions";
 }
 
 /// Chooses one candidate for each place so that each can follow the previous one, cyclically; empty if that is
@@ -292,7 +326,7 @@ Signature parse_signature(const Model& model, std::string_view text, const Place
     if (signature && signature->size() > 1 && signature->front().end == SegmentEnd::rest)
         reader.fail("an equilibrium is the only segment of its signature", "write it once", names.back().column);
     if (!signature)
-        reader.fail("no cycle of the model's graph has these transitions", "look at the transitions of the model",
+        reader.fail(why_no_cycle(model, names, places), "add the segments between them, or leave some out",
                     names.front().column);
     return *signature;
 }

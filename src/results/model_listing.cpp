@@ -20,7 +20,7 @@ std::string kind_words(const Model& model, const State& state, bool free) {
     if (state.period)
         return fmt::format(" (cyclic, period {})", to_string(*state.period));
     if (free)
-        return " (phase-free: nothing depends on it, and orbits may drift)";
+        return " (ignorable: nothing depends on it, and orbits may drift)";
     if (state.drifts_with)
         return fmt::format(" (may be translated together with {})", model.states[*state.drifts_with].name);
     return state.drifting ? " (drifting)" : "";
@@ -88,7 +88,7 @@ std::string model_listing(const Model& model) {
     listing.heading(model.states.size(), "state (initial value)", "states (initial values)");
     const std::vector<double> states = model.initial_state();
     const std::vector<std::size_t> free =
-        model.conserved.empty() ? std::vector<std::size_t>() : phase_free_states(model);
+        model.conserved.empty() ? std::vector<std::size_t>() : ignorable_states(model);
     for (std::size_t i = 0; i < states.size(); ++i)
         listing.row({model.states[i].name, fmt::format("= {}", states[i]), model.states[i].unit,
                      model.states[i].text + kind_words(model, model.states[i], std::ranges::count(free, i) > 0)});

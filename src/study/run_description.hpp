@@ -111,9 +111,10 @@ template <class Fields, class Run>
 void describe_path(Fields& fields, Run& run, const std::vector<std::string>& parameters) {
     auto& branch = run.branch().settings;
     const bool plane = run.kind == RunKind::curve, ladder = run.kind == RunKind::ladder;
-    fields.form({"along", plane ? "the two parameters, with their bounds"
-                                : "the parameter along which orbits are followed, with its bounds; or, along a family "
-                                  "at the same parameters, a conserved quantity or `period`"},
+    fields.form({"along", plane ? "the two parameters, with their bounds; one may be a conserved quantity or `period`"
+                          : ladder ? "the parameter along which orbits are followed, with its bounds"
+                                   : "the parameter along which orbits are followed, with its bounds; or, along a "
+                                     "family at the same parameters, a conserved quantity or `period`"},
                 plane    ? "{ omega = [0, 3], V = [0, 1] }"
                 : ladder ? "{ V = [0, 1] }"
                          : "{ V = [0, 1] } or \"V\"",

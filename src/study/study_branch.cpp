@@ -24,6 +24,11 @@ std::vector<std::string> names_with_conserved(const Model& model) {
 ParameterId parameter_named(const StudyReader& reader, const Model& model, const TomlEntry& entry,
                             const std::string& name) {
     const auto place = model.find_independent_parameter(name);
+    if (!place && !model.find_parameter(name) && (name == "period" || find_named(model.conserved, name)))
+        reader.fail(entry, fmt::format("'{}' is no parameter of the model", name),
+                    fmt::format("name a parameter here: runs of kind continue and curve take '{}', as one of the names "
+                                "in `along`",
+                                name));
     if (!place)
         reader.fail(entry,
                     model.find_parameter(name) ? fmt::format("parameter '{}' follows from others", name)

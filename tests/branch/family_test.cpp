@@ -472,6 +472,14 @@ TEST(Family, IsRefusedWhereNothingIsConserved) {
                   OrbitBranch(System(model), orbit, along("momentum"));
               }).find("the model has no conserved quantity 'momentum'"),
               std::string::npos);
+    EXPECT_NE(message_of([&] { OrbitBranch(System(model), orbit, along("period")); }).find("not conserved"),
+              std::string::npos);
+    Model bare = model;
+    bare.conserved.clear();
+    EXPECT_NE(message_of([&] {
+                  OrbitBranch(System(bare), orbit, along("period"));
+              }).find("the orbit is isolated at its parameters: it is not one of a family along 'period'; take out"),
+              std::string::npos);
 }
 
 } // namespace graze::family_test

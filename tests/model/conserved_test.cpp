@@ -87,14 +87,14 @@ TEST(Conserved, MayHaveAnExpressionOfItsOwnInAMode) {
 
 TEST(Conserved, StatesOnWhichNothingDependsAreFoundAloneAndInPairs) {
     const Model stop = with_stop("energy = 'v^2/2 + x^2/2'");
-    EXPECT_EQ(phase_free_states(stop), (std::vector<std::size_t>{2}));
+    EXPECT_EQ(ignorable_states(stop), (std::vector<std::size_t>{2}));
     EXPECT_TRUE(stop.states[2].drifting);
     EXPECT_FALSE(stop.states[0].drifting);
     // Without a declaration nothing is changed.
     EXPECT_FALSE(with_stop("").states[2].drifting);
     const std::string moving = "(vx^2 + vy^2)/2 + y";
     const Model run = runner("value = '" + moving + "'\nmodes = { stance = '" + moving + " + k*(1 - leg)^2/2' }");
-    EXPECT_TRUE(phase_free_states(run).empty());
+    EXPECT_TRUE(ignorable_states(run).empty());
     EXPECT_TRUE(run.states[0].drifting);
     EXPECT_FALSE(run.states[4].drifting);
     ASSERT_TRUE(run.states[4].drifts_with);

@@ -162,7 +162,7 @@ TEST(ContactDeclarations, OfModelsBuiltInCodeAreChecked) {
         EXPECT_NE(told.find(message), std::string::npos) << message << " in " << told;
         EXPECT_FALSE(told.empty());
     };
-    expect([](Model& one) { one.contact_settings.velocities.clear(); }, "contacts change no velocity");
+    expect([](Model& one) { one.contact_settings.velocities.clear(); }, "contacts.velocities names no state");
     expect([](Model& one) { one.contact_settings.velocities = {0, 99}; }, "contacts.velocities");
     expect([](Model& one) { one.contact_settings.mass.pop_back(); }, "has 1 entries for 2 velocities");
     expect([](Model& one) { one.contact_settings.modes = {7}; }, "contacts.modes");
@@ -205,9 +205,15 @@ TEST(ContactDeclarations, TellMistakes) {
     expect(with(corner, "velocities = [\"u\", \"v\"]", "velocities = [\"u\", \"u\"]"),
            "m.toml:13:1: a velocity is named twice; remove one of the two");
     expect(with(corner, "[modes.free]\n", "[modes.free]\nforces = { u = 1 }\n"),
-           "m.toml:10:1: the forces of mode 'free' are not those on the velocities of [contacts]; give one for each of "
-           "these "
-           "velocities, or the rates instead");
+           "m.toml:10:1: mode 'free' has no force on the velocity 'v'; give a force for each of contacts.velocities "
+           "and no other state, or the rates instead");
+    expect(with(corner, "[modes.free]\n", "[modes.free]\nforces = { u = 1, v = 2, x = 0 }\n"),
+           "m.toml:10:1: mode 'free' has a force on a state that impulses do not change, 'x'; give a force for each "
+           "of contacts.velocities and no other state, or the rates instead");
+    expect(with(corner, "gap = \"x\"", "gap = \"2 - y\"") + "[initial]\nmode = \"free-floor-stick-wall\"\n",
+           "m.toml:24:8: the mode 'free-floor-stick-wall' does not exist: at the initial state its contacts cannot be "
+           "closed at once; name one of 'free', 'free-wall', 'free-floor-stick', 'free-floor-forward', "
+           "'free-floor-backward'");
     expect(with(corner, "[modes.free]\n", "[modes.free]\nforces = { u = 1, v = 2 }\n"),
            "m.toml:10:1: mode 'free' has both a rate and a force for 'u'; keep one of the two");
     expect(

@@ -2,6 +2,7 @@
 
 #include "base/message_of.hpp"
 #include "graze/model/catalogue.hpp"
+#include "graze/model/model_file.hpp"
 #include "graze/orbit/solve.hpp"
 #include "kicked_ball.hpp"
 #include "orbit/accumulation.hpp"
@@ -185,6 +186,30 @@ TEST(ChatterOrbit, ABodyThatRidesAMovingSurfaceHasTheSignatureOfItsSection) {
     EXPECT_EQ(to_string(model, solution.orbit.signature), "phase0");
     EXPECT_EQ(model.modes[solution.orbit.signature[0].mode].name, "rest");
     EXPECT_NEAR(solution.orbit.period(), 0.1, 1e-12);
+}
+
+/// A part on a vibrating table. It begins to slip where friction, and to fly where the force of the table, no longer
+/// suffices. Its contact has three solutions of the law of impact, of which the orbit takes the second one.
+TEST(ChatterOrbit, OfADeclaredContactIsAdmissible) {
+    const double lift = 1.1, push = 0.2, mu = 0.4;
+    const Model model = parse_model(R"toml(
+parameters = { lift = 1.1, push = 0.2 }
+states = { x = { initial = 0, drifting = true }, y = 0, u = "push", v = "lift", phase = { initial = 0, period = "2*pi" } }
+modes.flight.rates = { x = "u", y = "v", u = 0, v = -1, phase = 1 }
+contacts.velocities = ["u", "v"]
+contacts.mass = [1, 1]
+contacts.table = { gap = "y - lift*sin(phase)", slip = "u - push*cos(phase)", restitution = 0.3, friction = 0.4 }
+sections.beat = { state = "phase", value = 0 }
+)toml",
+                                    "conveyor.toml");
+    const OrbitSolution solution = settled(model, "beat");
+    ASSERT_EQ(to_string(model, solution.orbit.signature),
+              "flight-table-stick:table-forward flight-table-forward:table-opens flight:table:forward* "
+              "flight-table-forward:table-stops");
+    EXPECT_TRUE(solution.certificate.admissible) << solution.certificate.reason;
+    EXPECT_NEAR(solution.orbit.starts[1][4], std::asin(mu / (push + mu * lift)), 1e-12);
+    EXPECT_NEAR(solution.orbit.starts[2][4], std::asin(1 / lift), 1e-12);
+    EXPECT_NEAR(solution.orbit.period(), 2 * std::numbers::pi, 1e-12);
 }
 
 } // namespace graze::chatter_orbit_test

@@ -73,6 +73,38 @@ TEST_F(OrbitCommand, AnotherRunCanStartFromTheCsv) {
     EXPECT_EQ(orbit.durations, std::vector<double>{2 / 0.9});
 }
 
+/// Laws of friction, contacts and slides make names with hyphens.
+TEST_F(OrbitCommand, AnotherRunCanStartFromTheCsvOfDerivedModes) {
+    OrbitRecord record = orbit_of("up", PointType::end, 1, true, true);
+    record.point.monitors = {};
+    model = parse_model(R"(
+parameters.mu = 0.5
+states = { x = 0, v = 0, s = { initial = 0, period = 4 } }
+modes.free.rates = { x = "v", v = "2*cos(pi*s/2) - x - ground", s = 1 }
+friction.ground = { velocity = "v", normal = 1, coefficient = "mu" }
+)",
+                        "rubbing.toml");
+    RunRecord run = run_of("rubbing", "continue");
+    run.coordinates = {{"mu", ""}};
+    run.states = {{"x", ""}, {"v", ""}, {"s", ""}};
+    run.values = {};
+    Orbit& orbit = record.point.solution.orbit;
+    orbit.signature =
+        parse_signature(model, "free-stick:forward free-forward:stops free-stick:backward free-backward:stops");
+    orbit.parameters = {0.5};
+    orbit.starts = {{-1, 0, 3}, {-1, 0, 3.5}, {1, 0, 1}, {1, 0, 1.5}};
+    orbit.durations = {0.5, 1.5, 0.5, 1.5};
+    {
+        ResultFile file(path, ResultFile::Access::write);
+        write_run(file, run, {record});
+    }
+    const Printed printed = run_graze({"orbit", path, "0", "--samples", "4", "--format", "csv"});
+    const Orbit read = parse_orbit_table(model, printed.out, "", "orbit.csv");
+    EXPECT_EQ(read.signature, orbit.signature);
+    EXPECT_EQ(read.starts, orbit.starts);
+    EXPECT_EQ(read.durations, orbit.durations);
+}
+
 TEST_F(OrbitCommand, ShowsBothHalvesOfASymmetricOrbit) {
     OrbitRecord record = orbit_of("up", PointType::end, 1, true, true);
     record.point.monitors = {};

@@ -489,7 +489,7 @@ WRONG = {
                                                                                 convention="utkn")}),
                                       "slides['s'].convention: slides.s.convention cannot be 'utkn'"),
     "contacts without velocities": (lambda: ball(contacts=graze.Contacts({"wall": graze.Contact(v, 1)}, mass=[1])),
-                                    "contacts change no velocity"),
+                                    "contacts.velocities names no state"),
     "a contact with friction but no slip": (lambda: ball(contacts=graze.Contacts(
         {"wall": graze.Contact(v, 1, friction=0.2)}, mass={v: 1})), "contacts.wall has no velocity along the surface"),
     "a friction without use": (lambda: ball(friction={"rub": graze.Friction(v, 1, 0.3)}),

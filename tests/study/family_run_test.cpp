@@ -114,6 +114,17 @@ TEST_F(FamilyRun, SaysWhatCannotBeFollowed) {
         testing::message_of([&] { problem("along = { energy = [0, 1] }\nmonitors = { a = { conserved = \"b\" } }"); }),
         HasSubstr("the model has no conserved quantity 'b'"));
     EXPECT_THAT(problem("along = { energy = [1, 2] }"), HasSubstr("lies beyond its bound"));
+    // Only `along` of branches and curves takes what is conserved, and once.
+    for (const std::string text :
+         {"along = { k = [0, 1] }\nfree = [\"energy\"]", "along = { k = [0, 1] }\nfree = [\"period\"]"})
+        EXPECT_THAT(testing::message_of([&] { problem(text); }),
+                    HasSubstr("is no parameter of the model; name a parameter"));
+    EXPECT_THAT(testing::message_of([&] {
+                    run(head + "[runs.a]\nkind = \"continue\"\nsignature = \"left\"\nalong = { energy = [0.01, 2] }\n"
+                               "[runs.b]\nkind = \"ladder\"\nstart = { run = \"a\", point = \"GR1\" }\n"
+                               "along = { energy = [0.01, 2] }\n");
+                }),
+                HasSubstr("'energy' is no parameter of the model; name a parameter"));
 }
 
 } // namespace graze::family_run_test

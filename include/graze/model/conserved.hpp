@@ -23,10 +23,10 @@ bool conserves_something(const Model& model, std::span<const double> parameters)
 
 /// Returns the states on whose values nothing depends: no rate, event, guard, section, conserved quantity and jump,
 /// except that a jump may shift the state itself. A motion may begin at any value of them, and is the same.
-std::vector<std::size_t> phase_free_states(const Model& model);
+std::vector<std::size_t> ignorable_states(const Model& model);
 
-/// Lets orbits of a model with conserved quantities drift along its phase-free states, unless a state is cyclic, and
-/// along pairs of states that may be translated together.
-void let_phase_free_states_drift(Model& model);
+/// Lets orbits of a model with conserved quantities drift along its ignorable coordinates, unless a state is cyclic,
+/// and along pairs of states that may be translated together.
+void let_ignorable_states_drift(Model& model);
 
 } // namespace graze
