@@ -56,7 +56,9 @@ bool Trajectory::complete_chatter(std::size_t w, double step) {
     const double lengthening = -c[3] / c[2] * steady;
     const double remaining = history.interrupted ? steady : steady * (1 + lengthening);
     const double allowed = std::max(4 * epsilon, 0.01 * simulation_.options().tolerance);
-    const double height = deceleration * remaining * remaining;
+    // Where other events come in between, the present deceleration may not be what brings the next contact: of two
+    // balls that fall it is round-off.
+    const double height = std::max(deceleration * remaining, history.interrupted ? speed : 0.0) * remaining;
     const double change = std::abs(lengthening);
     const double neglected =
         history.interrupted ? change : 4 * (change * change + std::abs(c[4] / c[2]) * steady * steady);

@@ -295,6 +295,45 @@ transitions = [
     }
 }
 
+/// Falling balls have no acceleration relative to each other but round-off, and other contacts lie between theirs.
+TEST(Chatter, ElasticBallsAboveEachOtherKeepTheirEnergy) {
+    Random random(15);
+    for (int i = 0; i < 40; ++i) {
+        const int balls = random.integer(2, 4);
+        std::string states = "[states]\n", rates, velocities, masses, contacts;
+        std::vector<double> mass;
+        double height = 0, energy = 0;
+        for (int k = 0; k < balls; ++k) {
+            height += random.uniform(0.1, 1);
+            mass.push_back(random.log_uniform(0.1, 10));
+            energy += mass.back() * height;
+            states += fmt::format("q{0} = {1:.17g}\nv{0} = 0\n", k, height);
+            rates +=
+                fmt::format("{1}q{0} = \"v{0}\", v{0} = \"-{2:.17g}/{2:.17g}\"", k, k > 0 ? ", " : "", mass.back());
+            velocities += fmt::format("{1}\"v{0}\"", k, k > 0 ? ", " : "");
+            masses += fmt::format("{1}{0:.17g}", mass.back(), k > 0 ? ", " : "");
+            contacts += fmt::format("[contacts.c{0}]\ngap = \"q{0}{1}\"\nrestitution = 1\n", k,
+                                    k > 0 ? fmt::format(" - q{}", k - 1) : "");
+        }
+        const char* const laws[] = {"newton", "moreau", "sequence", "poisson"};
+        Experiment experiment(model_from(fmt::format(
+            "name = \"column\"\n{}[modes.free]\nrates = {{ {} }}\n[contacts]\nvelocities = [{}]\nmass = [{}]\nlaw = "
+            "\"{}\"\n{}[initial]\nmode = \"free\"\n",
+            states, rates, velocities, masses, laws[balls == 4 ? i % 3 : i % 4], contacts)));
+        const Outcome outcome = experiment.run(8);
+        ASSERT_EQ(outcome.ending, Ending::end_time) << i << outcome.detail;
+        double now = 0;
+        for (std::size_t k = 0; k < mass.size(); ++k) {
+            const double q = experiment.state()[2 * k], v = experiment.state()[2 * k + 1];
+            now += mass[k] * (q + 0.5 * v * v);
+            EXPECT_GE(q, k > 0 ? experiment.state()[2 * k - 2] - 1e-12 : -1e-12) << i;
+        }
+        EXPECT_NEAR(now, energy, 1e-9 * energy) << i;
+        for (const auto& one : experiment.recorder.contacts())
+            EXPECT_NE(one.contact.kind, ContactKind::sticking) << i << " at " << one.contact.time;
+    }
+}
+
 TEST(Chatter, ImpactsOnAVibratingTableEqualAnIndependentSimulation) {
     Random random(14);
     const Real pi = std::numbers::pi_v<Real>;
