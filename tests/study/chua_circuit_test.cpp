@@ -38,7 +38,7 @@ within = { x = [-5, 5], y = [-2, 2], z = [-5, 5] }
         ASSERT_EQ(one.point.solution.eigenvalues.size(), 3U);
         for (const std::complex<double> value : one.point.solution.eigenvalues) {
             const double m = middle ? -1.0 / 7 : 2.0 / 7;
-            EXPECT_NEAR(std::abs(((value + 1 + 9 * m) * value + 9 * m + beta - 9) * value + 9 * beta * m), 0, 1e-11);
+            EXPECT_NEAR(std::abs(((value + 1.0 + 9 * m) * value + (9 * m + beta - 9)) * value + 9 * beta * m), 0, 1e-11);
             const bool real = value.imag() == 0;
             EXPECT_NEAR(value.real(), middle ? (real ? 2.22 : -0.97) : (real ? -3.94 : 0.19), 0.005);
             EXPECT_NEAR(std::abs(value.imag()), real ? 0 : (middle ? 2.71 : 3.05), 0.005);
