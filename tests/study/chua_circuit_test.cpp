@@ -59,11 +59,25 @@ kind = "continue"
 signature = "equilibrium"
 from = { x = 1.5 }
 along = { alpha = [5, 10] }
+[runs.cycles]
+kind = "continue"
+start = { run = "branch", point = "HB1" }
+along = { alpha = [5, 10] }
+[runs.beyond]
+kind = "continue"
+start = { run = "cycles", point = "GR1" }
+along = { alpha = [6, 10] }
 )"));
     const ResultFile file(path_, ResultFile::Access::read);
     const auto hopf = file.orbit("branch", std::string("HB1"));
     ASSERT_TRUE(hopf);
     EXPECT_NEAR(hopf->point.parameter, (std::sqrt(29225.0) - 35) / 20, 1e-12);
+    const double alpha = hopf->point.parameter;
+    for (const OrbitRecord& one : file.orbits("cycles", false)) {
+        EXPECT_NEAR(one.point.parameter, alpha, 1e-9);
+        EXPECT_NEAR(one.point.solution.orbit.period(),
+                    2 * std::numbers::pi / std::sqrt(alpha * 2 / 7 + 100.0 / 7 - alpha), 1e-8);
+    }
 }
 
 } // namespace graze::chua_circuit_test
