@@ -26,7 +26,7 @@ bool conserves_something(const Model& model, std::span<const double> parameters)
 std::vector<std::size_t> phase_free_states(const Model& model);
 
 /// Lets orbits of a model with conserved quantities drift along its phase-free states, unless a state is cyclic, and
-/// along pairs of states that may be translated together.
+/// along sets of states that may be translated together.
 void let_phase_free_states_drift(Model& model);
 
 } // namespace graze
