@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <utility>
 
 namespace graze {
@@ -24,34 +23,9 @@ struct Difference {
     double value = 0, error = infinity;
 };
 
-/// Round-off of all values: how far they scatter over neighbouring numbers of an input. Where large terms cancel this is
-/// far more than the last digit of a value. Empty where values are not defined.
-std::vector<double> round_off(const Values& values, std::vector<double> inputs, std::size_t input) {
-    const double at = inputs[input], unit = std::numeric_limits<double>::epsilon() * (at == 0 ? 1 : std::abs(at));
-    std::vector<double> least, greatest;
-    for (const double units : {-2.0, -1.0, 0.0, 1.0, 2.0}) {
-        inputs[input] = at + units * unit;
-        const std::vector<double> here = values(inputs);
-        if (here.empty())
-            return {};
-        if (least.empty())
-            least = greatest = here;
-        for (std::size_t k = 0; k < here.size(); ++k) {
-            least[k] = std::min(least[k], here[k]);
-            greatest[k] = std::max(greatest[k], here[k]);
-        }
-    }
-    for (std::size_t k = 0; k < least.size(); ++k)
-        greatest[k] -= least[k];
-    return greatest;
-}
-
 /// Derivatives of all values by one input: central differences at smaller and smaller steps, extrapolated to none, each
-/// with the error that they tell of themselves (C. J. F. Ridders, Adv. Eng. Softw. 4 (1982) 75) and that of round-off.
+/// with the error that they tell of themselves (C. J. F. Ridders, Adv. Eng. Softw. 4 (1982) 75).
 std::vector<Difference> differences(const Values& values, std::vector<double> inputs, std::size_t input) {
-    const std::vector<double> noise = round_off(values, inputs, input);
-    if (noise.empty())
-        return {};
     constexpr std::size_t rows = 8;
     constexpr double first = 0.01, smaller = 1.8;
     const double at = inputs[input];
@@ -75,8 +49,8 @@ std::vector<Difference> differences(const Values& values, std::vector<double> in
             for (std::size_t k = 0; k < best.size(); ++k) {
                 const double here = table[j - 1][i][k], before = table[j - 1][i - 1][k];
                 const double next = table[j][i][k] = here + (here - before) / (factor - 1);
-                const double told = std::max(std::abs(next - here), std::abs(next - before));
-                if (const double error = told + noise[k] / step; error < best[k].error)
+                if (const double error = std::max(std::abs(next - here), std::abs(next - before));
+                    error < best[k].error)
                     best[k] = {next, error};
             }
         }

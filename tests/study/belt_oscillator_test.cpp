@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 namespace graze::belt_oscillator_test {
@@ -39,6 +40,29 @@ direction = "up"
         EXPECT_NEAR(touch->point.parameter, std::hypot(1 - nu * nu, 0.2 * nu) / nu, 1e-11);
         EXPECT_THAT(touch->point.detail, HasSubstr("grazing-sliding"));
     }
+}
+
+/// The published grazing-sliding of an orbit of four periods is at nu = 1.7077997; below it is chaos.
+TEST_F(BeltOscillator, StartsChaosAtThePublishedFrequency) {
+    expect_complete(run(R"(name = "s"
+model = "belt-oscillator"
+[runs.branch]
+kind = "continue"
+set = { nu = 1.711 }
+along = { nu = [1.7, 1.712] }
+[runs.below]
+kind = "sweep"
+vary = { nu = [1.706] }
+lyapunov_cycles = 400
+chaos_cycles = 500
+)"));
+    const ResultFile file(path_, ResultFile::Access::read);
+    const auto touch = file.orbit("branch", std::string("GR1"));
+    ASSERT_TRUE(touch);
+    EXPECT_NEAR(touch->point.parameter, 1.7077997, 5e-8);
+    EXPECT_THAT(touch->point.detail, HasSubstr("grazing-sliding"));
+    EXPECT_NEAR(touch->point.solution.orbit.period(), 8 * std::numbers::pi / touch->point.parameter, 1e-10);
+    EXPECT_EQ(file.point("below", 0)->result.label, Label::chaotic);
 }
 
 } // namespace graze::belt_oscillator_test

@@ -8,6 +8,7 @@
 #include <complex>
 #include <numbers>
 #include <string>
+#include <vector>
 
 namespace graze::chua_circuit_test {
 
@@ -38,7 +39,8 @@ within = { x = [-5, 5], y = [-2, 2], z = [-5, 5] }
         ASSERT_EQ(one.point.solution.eigenvalues.size(), 3U);
         for (const std::complex<double> value : one.point.solution.eigenvalues) {
             const double m = middle ? -1.0 / 7 : 2.0 / 7;
-            EXPECT_NEAR(std::abs(((value + 1.0 + 9 * m) * value + (9 * m + beta - 9)) * value + 9 * beta * m), 0, 1e-11);
+            EXPECT_NEAR(std::abs(((value + 1.0 + 9 * m) * value + (9 * m + beta - 9)) * value + 9 * beta * m), 0,
+                        1e-11);
             const bool real = value.imag() == 0;
             EXPECT_NEAR(value.real(), middle ? (real ? 2.22 : -0.97) : (real ? -3.94 : 0.19), 0.005);
             EXPECT_NEAR(std::abs(value.imag()), real ? 0 : (middle ? 2.71 : 3.05), 0.005);
@@ -48,9 +50,10 @@ within = { x = [-5, 5], y = [-2, 2], z = [-5, 5] }
     EXPECT_EQ(outer, 2U);
 }
 
-/// Routh and Hurwitz: (1 + alpha m1)(alpha m1 + beta - alpha) = alpha beta m1, quadratic in alpha. There the field
-/// about the equilibrium is a linear centre, of which the cycles are a family up to the size at which they touch x = 1.
-TEST_F(ChuaCircuit, OscillatesFromItsHopfPointOn) {
+/// Routh and Hurwitz: (1 + alpha m1)(alpha m1 + beta - alpha) = alpha beta m1, quadratic in alpha.
+const double hopf = (std::sqrt(29225.0) - 35) / 20;
+
+TEST_F(ChuaCircuit, RestLosesItsStabilityWhereRouthAndHurwitzSay) {
     expect_complete(run(R"(name = "s"
 model = "chua-circuit"
 set = { alpha = 6 }
@@ -59,24 +62,60 @@ kind = "continue"
 signature = "equilibrium"
 from = { x = 1.5 }
 along = { alpha = [5, 10] }
-[runs.cycles]
-kind = "continue"
-start = { run = "branch", point = "HB1" }
-along = { alpha = [5, 10] }
-[runs.beyond]
-kind = "continue"
-start = { run = "cycles", point = "GR1" }
-along = { alpha = [6, 10] }
 )"));
     const ResultFile file(path_, ResultFile::Access::read);
-    const auto hopf = file.orbit("branch", std::string("HB1"));
-    ASSERT_TRUE(hopf);
-    EXPECT_NEAR(hopf->point.parameter, (std::sqrt(29225.0) - 35) / 20, 1e-12);
-    const double alpha = hopf->point.parameter;
-    for (const OrbitRecord& one : file.orbits("cycles", false)) {
-        EXPECT_NEAR(one.point.parameter, alpha, 1e-9);
-        EXPECT_NEAR(one.point.solution.orbit.period(),
-                    2 * std::numbers::pi / std::sqrt(alpha * 2 / 7 + 100.0 / 7 - alpha), 1e-8);
+    ASSERT_TRUE(file.orbit("branch", std::string("HB1")));
+    EXPECT_NEAR(file.orbit("branch", std::string("HB1"))->point.parameter, hopf, 1e-12);
+}
+
+/// At the Hopf point the field about the equilibrium is a linear centre: the cycles of all sizes up to that at which
+/// they touch x = 1 are there, and the branch of those that are larger ends in this touch. At its other end it
+/// approaches an orbit that is homoclinic to the origin, where an eigenvalue is positive and two are s + i w, s < 0:
+/// the branch turns once in each half turn of the motion about the origin, which takes pi/w, by distances that shrink
+/// by exp(pi s/w) (P. Glendinning and C. Sparrow, J. Stat. Phys. 35 (1984) 645).
+TEST_F(ChuaCircuit, CyclesLeadFromTheHopfPointToShilnikovsOrbit) {
+    expect_complete(run(R"(name = "s"
+model = "chua-circuit"
+[runs.cycle]
+kind = "orbit"
+set = { alpha = 7 }
+from = { x = 1.6 }
+[runs.smaller]
+kind = "continue"
+start = { run = "cycle" }
+along = { alpha = [6, 12] }
+direction = "down"
+[runs.branch]
+kind = "continue"
+start = { run = "cycle" }
+along = { alpha = [6, 12] }
+direction = "up"
+steps = 80
+)"));
+    const ResultFile file(path_, ResultFile::Access::read);
+    const auto touch = file.orbit("smaller", std::string("GR1"));
+    ASSERT_TRUE(touch);
+    EXPECT_NEAR(touch->point.parameter, hopf, 1e-10);
+    EXPECT_NEAR(touch->point.solution.orbit.period(), 2 * std::numbers::pi / std::sqrt(hopf * 2 / 7 + 100.0 / 7 - hopf),
+                1e-8);
+    std::vector<double> alpha, period;
+    for (int k = 2; k <= 7; ++k) {
+        const auto fold = file.orbit("branch", "SN" + std::to_string(k));
+        ASSERT_TRUE(fold) << k;
+        alpha.push_back(fold->point.parameter);
+        period.push_back(fold->point.solution.orbit.period());
+    }
+    // The complex eigenvalues of the origin, by the real one: (l - r)(l^2 - 2 s l + s^2 + w^2).
+    const double a = alpha.back(), m0 = -1.0 / 7, beta = 100.0 / 7;
+    double real = 3;
+    for (int i = 0; i < 50; ++i)
+        real -= (((real + 1 + a * m0) * real + a * m0 + beta - a) * real + a * beta * m0) /
+                ((3 * real + 2 * (1 + a * m0)) * real + a * m0 + beta - a);
+    const double s = -(1 + a * m0 + real) / 2, w = std::sqrt(-a * beta * m0 / real - s * s);
+    for (std::size_t k = 3; k + 1 < alpha.size(); ++k) {
+        const double ratio = (alpha[k + 1] - alpha[k]) / (alpha[k] - alpha[k - 1]);
+        EXPECT_NEAR(ratio, -std::exp(std::numbers::pi * s / w), 0.002) << k; // both are limits
+        EXPECT_NEAR(period[k + 1] - period[k], std::numbers::pi / w, 0.001) << k;
     }
 }
 

@@ -84,13 +84,22 @@ mode = "balance"
 from = { T = 0.9, S = 0.82 }
 along = { threshold = [-0.1, 0.3] }
 )"));
+    // The rest without convection has the density 1 - alpha; at 0 both fields are tangent to the threshold.
     const ResultFile file(path_, ResultFile::Access::read);
+    EXPECT_NEAR(file.orbit("branch", std::string("BE1"))->point.parameter, 1 - alpha, 1e-12);
+    EXPECT_NEAR(file.orbit("branch", std::string("BE2"))->point.parameter, 0, 1e-12);
+    std::size_t compared = 0;
     for (const OrbitRecord& one : file.orbits("branch", false)) {
         const std::vector<double>& state = one.point.solution.orbit.starts[0];
+        if (one.point.parameter >= 1 - alpha)
+            continue;
+        ++compared;
+        EXPECT_TRUE(one.stable);
         const double k = 1 / state[0] - 1;
         EXPECT_NEAR(beta / (beta + k) - alpha / (1 + k), one.point.parameter, 1e-12);
         EXPECT_NEAR(state[1], beta / (beta + k), 1e-12);
     }
+    EXPECT_GT(compared, 10U);
 }
 
 } // namespace graze::welander_convection_test
