@@ -112,8 +112,9 @@ along = { energy = [815, 818] }
     }
     std::ranges::sort(energies);
     ASSERT_EQ(energies.size(), 3U);
-    for (std::size_t i = 0; i < 3; ++i)
-        EXPECT_NEAR(energies[i], std::array{815.0, 816.0, 818.0}[i], 1e-9);
+    EXPECT_NEAR(energies[0], 815, 1e-9);
+    EXPECT_NEAR(energies[1], 816, 1e-9);
+    EXPECT_NEAR(energies[2], 818, 1e-9);
     for (const OrbitRecord& one : file.orbits("family", false))
         EXPECT_TRUE(one.stable) << one.point.parameter;
 }
