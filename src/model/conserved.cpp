@@ -5,6 +5,7 @@
 #include "graze/symbolic/symbol_index.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "model/model_expressions.hpp"
+#include "model/moved_together.hpp"
 
 #include <fmt/format.h>
 
@@ -229,44 +230,25 @@ private:
     std::shared_ptr<const std::vector<Expression>> identity_; ///< images of jumps that change nothing
 };
 
-/// The gradients of everything on which a motion depends, at a number of states: a translation of states along which
-/// all of them vanish does not change the motion.
-class Translations {
-public:
-    explicit Translations(const Model& model) : model_(model) {
-        const std::vector<Expression> states = model_.state_symbols();
-        std::vector<Expression> all = deciding_expressions(model_);
-        std::shared_ptr<const std::vector<Expression>> identity;
-        for (const Jump& jump : model_.jumps)
-            for (const StateMap::Change& change : changes_of(jump.map, states, identity))
-                all.push_back(model_.expand(change.image - states[change.state]));
-        const Function gradients = model_.function_of(jacobian(all, states));
-        const std::vector<double> initial = model_.initial_state(), parameters = model_.parameter_values();
-        double turn = 0;
-        for (const double distance : {0.1, 0.3, 1.0, 0.2, 0.7, 2.0})
-            gradients_.push_back(gradients(concatenated(state_around(initial, distance, turn), parameters)));
+/// The gradients of everything on which a motion depends, at a number of states: all rows, one after another. A
+/// translation of states along which all of them vanish does not change the motion.
+std::vector<double> deciding_gradients(Model model) {
+    const std::vector<Expression> states = model.state_symbols();
+    std::vector<Expression> all = deciding_expressions(model);
+    std::shared_ptr<const std::vector<Expression>> identity;
+    for (const Jump& jump : model.jumps)
+        for (const StateMap::Change& change : changes_of(jump.map, states, identity))
+            all.push_back(model.expand(change.image - states[change.state]));
+    const Function gradients = model.function_of(jacobian(all, states));
+    const std::vector<double> initial = model.initial_state(), parameters = model.parameter_values();
+    std::vector<double> result;
+    double turn = 0;
+    for (const double distance : {0.1, 0.3, 1.0, 0.2, 0.7, 2.0}) {
+        const std::vector<double> here = gradients(concatenated(state_around(initial, distance, turn), parameters));
+        result.insert(result.end(), here.begin(), here.end());
     }
-    /// True when nothing changes if two states are translated together.
-    bool keep_motion(std::size_t one, std::size_t other) const {
-        constexpr double same = 1e-11;
-        const std::size_t n = model_.states.size();
-        bool moved = false;
-        for (const std::vector<double>& all : gradients_)
-            for (std::size_t row = 0; row < all.size(); row += n) {
-                const double a = all[row + one], b = all[row + other];
-                if (!std::isfinite(a) || !std::isfinite(b))
-                    continue;
-                if (std::abs(a + b) > same * (std::abs(a) + std::abs(b)))
-                    return false;
-                moved = moved || a != 0;
-            }
-        return moved;
-    }
-
-private:
-    Model model_;
-    std::vector<std::vector<double>> gradients_; ///< at each of some states: all rows, one after another
-};
+    return result;
+}
 
 /// Collects the names on which a model's motion depends.
 class Dependencies {
@@ -343,18 +325,18 @@ void let_ignorable_states_drift(Model& model) {
     for (const std::size_t i : ignorable_states(model))
         if (!model.states[i].period)
             model.states[i].drifting = true;
-    constexpr std::size_t most_states = 60; // beyond, pairs are not tried
+    constexpr std::size_t most_states = 60; // beyond, sets of states are not looked for
     if (model.states.size() > most_states)
         return;
-    const Translations translations(model);
-    for (std::size_t i = 0; i < model.states.size(); ++i)
-        for (std::size_t j = i + 1; j < model.states.size(); ++j)
-            if (!model.states[i].period && !model.states[j].period && !model.states[i].drifts_with &&
-                translations.keep_motion(i, j)) {
-                model.states[i].drifting = true;
-                model.states[j].drifting = false;
-                model.states[j].drifts_with = i;
-            }
+    for (const std::vector<std::size_t>& set : sets_moved_together(deciding_gradients(model), model.states.size())) {
+        if (std::ranges::any_of(set, [&](std::size_t i) { return model.states[i].period.has_value(); }))
+            continue;
+        model.states[set.front()].drifting = true;
+        for (std::size_t k = 1; k < set.size(); ++k) {
+            model.states[set[k]].drifting = false;
+            model.states[set[k]].drifts_with = set.front();
+        }
+    }
 }
 
 } // namespace graze

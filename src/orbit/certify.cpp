@@ -17,6 +17,14 @@ namespace {
 /// Event function values below this fraction of the function's size along the arc count as zero.
 constexpr double on_surface = 1e-9;
 
+/// Whether none of the transitions for an event changes anything. @param first of them
+bool changes_nothing(const System& system, std::size_t first) {
+    for (std::optional<std::size_t> one = first; one; one = system.transition(*one).following)
+        if (!is_identity_transition(system, *one))
+            return false;
+    return true;
+}
+
 /// Records the minima and the first fall of each watched event function along one segment.
 class ArcWatcher {
 public:
@@ -31,7 +39,7 @@ public:
           extrema_(mode_->watched.size()) {
         const System& compiled = equations.system();
         for (std::size_t w = 0; w < mode_->watched.size(); ++w)
-            identity_.push_back(is_identity_transition(compiled, mode_->transitions[w]));
+            identity_.push_back(changes_nothing(compiled, mode_->transitions[w]));
     }
 
     /// @param begin start time of the arc of the series, from the start of the segment
@@ -112,10 +120,12 @@ public:
         std::ranges::stable_sort(result, [](const OrbitMinimum& a, const OrbitMinimum& b) { return a.time < b.time; });
         return result;
     }
-    /// True for the event that ends the segment, by whichever of its transitions.
+    /// Whether the segment ends where this event happens, alone or with others. Of several transitions for one event
+    /// any may be made.
     bool is_own(std::size_t w) const {
-        const Transition* const own = transition_of(equations_->model(), equations_->signature()[segment_]);
-        return own && own->event == mode_->watched[w];
+        const Transition* const made = transition_of(equations_->model(), equations_->signature()[segment_]);
+        const std::size_t event = mode_->watched[w];
+        return made != nullptr && (made->event == event || std::ranges::find(made->also, event) != made->also.end());
     }
     bool is_identity(std::size_t w) const { return identity_[w]; }
     /// Sizes of the functions along the arc. A flight of a chatter sequence has those of the flights before it: its own

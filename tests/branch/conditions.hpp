@@ -103,11 +103,21 @@ struct Motion {
 };
 
 /// Motions of the shipped models, long enough for several segments.
-inline constexpr Motion motions[] = {{"ball-and-shaker", 1.5},       {"bouncing-ball", 1.2},
-                                     {"dry-friction-oscillator", 9}, {"electromagnetic-testbed", 0.2},
-                                     {"impact-microactuator", 8},    {"impact-oscillator-two-stops", 9},
-                                     {"impact-oscillator", 9},       {"mems-switch", 9},
-                                     {"mems-switch-device", 1.4},    {"microbeam", 9}};
+inline constexpr Motion motions[] = {{"ball-and-shaker", 1.5},
+                                     {"bouncing-ball", 1.2},
+                                     {"belt-oscillator", 9},
+                                     {"chua-circuit", 9},
+                                     {"rocking-block", 9},
+                                     {"spring-walker", 1},
+                                     {"welander-convection", 6},
+                                     {"dry-friction-oscillator", 9},
+                                     {"electromagnetic-testbed", 0.2},
+                                     {"impact-microactuator", 8},
+                                     {"impact-oscillator-two-stops", 9},
+                                     {"impact-oscillator", 9},
+                                     {"mems-switch", 9},
+                                     {"mems-switch-device", 1.4},
+                                     {"microbeam", 9}};
 
 /// The equations of such a motion, with the first two parameters free.
 struct FollowedEquations {

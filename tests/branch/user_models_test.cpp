@@ -34,7 +34,7 @@ Orbit sliding_orbit(const Sliding& known, const Model& model) {
     // To the left, from a turning point on the right.
     const double x = known.amplitude(),
                  phase = std::atan2(-known.friction * known.damping() / known.response(), x / known.response());
-    const Orbit orbit = given_orbit(model, "slip_minus:stop_minus slip_plus:stop_plus",
+    const Orbit orbit = given_orbit(model, "mass-backward:stops mass-forward:stops",
                                     {{x, 0, phase}, {-x, 0, phase + pi}}, {pi / known.omega, pi / known.omega});
     return half_orbit(System(model), orbit).value();
 }

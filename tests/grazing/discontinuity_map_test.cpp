@@ -321,7 +321,7 @@ TEST(DiscontinuityMap, ShortStickingHasALinearMapWithItsClosedForm) {
     for (const double zeta : {0.0, 0.1}) {
         Model model = shipped_with("dry-friction-oscillator", {{"zeta", zeta}, {"friction_static", 0.3}});
         const double theta = 4, x = std::cos(theta) - 0.3;
-        TouchState touch = touch_of(model, "slip_plus", "stop_plus", {x, 0, theta});
+        TouchState touch = touch_of(model, "mass-forward", "friction-stops-forward", {x, 0, theta});
         const DiscontinuityMap map = discontinuity_map(System(model), touch);
         ASSERT_EQ(map.order, MapOrder::linear) << map.reason;
         const double a = -0.4 * std::sin(theta);
@@ -336,8 +336,8 @@ TEST(DiscontinuityMap, ShortStickingHasALinearMapWithItsClosedForm) {
         for (std::size_t i = 0; i < 2; ++i)
             touch.state[i] = -touch.state[i];
         touch.state[2] += std::acos(-1.0);
-        touch.mode = *model.find_mode("slip_minus");
-        touch.event = *model.find_event("stop_minus");
+        touch.mode = *model.find_mode("mass-backward");
+        touch.event = *model.find_event("friction-stops-backward");
         const DiscontinuityMap mirrored = discontinuity_map(System(model), touch);
         ASSERT_EQ(mirrored.order, MapOrder::linear) << mirrored.reason;
         EXPECT_NEAR(mirrored.direction[1], -1, 1e-15);
@@ -347,7 +347,7 @@ TEST(DiscontinuityMap, ShortStickingHasALinearMapWithItsClosedForm) {
         touch.parameters = model.parameter_values();
         const DiscontinuityMap held = discontinuity_map(System(model), touch);
         EXPECT_FALSE(held.exists());
-        EXPECT_THAT(held.reason, HasSubstr("mode 'stick', from which the motion does not come back at once"));
+        EXPECT_THAT(held.reason, HasSubstr("mode 'mass-stick', from which the motion does not come back at once"));
     }
 }
 
@@ -382,13 +382,15 @@ TEST(DiscontinuityMap, StickingScalesWithTheUnits) {
 /// The largest force just reaches friction; beyond it the mass slips by the square of the depth.
 TEST(DiscontinuityMap, EndOfSlidingIsRefusedWithTheReason) {
     Model model = shipped_with("dry-friction-oscillator", {{"friction_static", 0.3}});
-    const DiscontinuityMap map = discontinuity_map(System(model), touch_of(model, "stick", "break_plus", {0.7, 0, 0}));
+    const DiscontinuityMap map =
+        discontinuity_map(System(model), touch_of(model, "mass-stick", "mass-stick-forward", {0.7, 0, 0}));
     EXPECT_FALSE(map.exists());
-    EXPECT_THAT(map.reason, HasSubstr("the motion slides along the surface of event 'stop_plus'"));
+    EXPECT_THAT(map.reason, HasSubstr("the motion slides along the surface of event 'friction-stops-forward'"));
     // With higher static friction the mass slips far.
     model.set_parameter("friction_static", 0.4);
-    EXPECT_THAT(discontinuity_map(System(model), touch_of(model, "stick", "break_plus", {0.6, 0, 0})).reason,
-                HasSubstr("mode 'slip_plus', from which the motion does not come back at once"));
+    EXPECT_THAT(
+        discontinuity_map(System(model), touch_of(model, "mass-stick", "mass-stick-forward", {0.6, 0, 0})).reason,
+        HasSubstr("mode 'mass-forward', from which the motion does not come back at once"));
 }
 
 TEST(DiscontinuityMap, UnsuitableSlidingIsRefusedWithTheReason) {

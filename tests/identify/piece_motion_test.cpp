@@ -15,7 +15,6 @@ struct Case {
     std::vector<std::string> moved;
     double begin, end;
     std::size_t times;
-    double velocity = 0; ///< the second state at the beginning
 };
 
 /// Compares the derivatives of all samples, of the end, and of the sides beyond contacts with central differences.
@@ -33,9 +32,7 @@ void expect_differences(const Case& one) {
     for (std::size_t k = 0; k < one.times; ++k)
         times.push_back(one.begin +
                         (one.end - one.begin) * (static_cast<double>(k) + 0.5) / static_cast<double>(one.times));
-    const std::vector<double> parameters = model.parameter_values(), usual = model.initial_state();
-    std::vector<double> start = usual;
-    start[1] += one.velocity;
+    const std::vector<double> parameters = model.parameter_values(), start = model.initial_state();
     MotionPiece piece{{}, seeds, model.initial_mode, one.begin, one.end, times, 1.5 * (times[1] - times[0])};
     const auto follow = [&](const std::vector<double>& values, const std::vector<double>& state) {
         motion.set_parameters(values);
@@ -87,12 +84,9 @@ void expect_differences(const Case& one) {
 TEST(PieceMotion, DerivativesEqualFiniteDifferences) {
     expect_differences({load_model("impact-oscillator"), {"zeta", "omega", "sigma", "e", "amplitude"}, 0, 9, 87});
     expect_differences({load_model("bouncing-ball"), {"g", "e", "a", "f"}, 0, 0.5, 113});
-    expect_differences({load_model("dry-friction-oscillator"),
-                        {"zeta", "omega", "friction_static", "friction_dynamic"},
-                        0,
-                        20,
-                        119,
-                        -0.1});
+    Model rubbing = load_model("dry-friction-oscillator");
+    rubbing.set_initial("v", -0.1); // the law chooses the mode in which the motion begins
+    expect_differences({rubbing, {"zeta", "omega", "friction_static", "friction_dynamic"}, 0, 20, 119});
     expect_differences({load_model("ball-and-shaker"), {"zeta", "omega_n", "e", "a", "f"}, 0, 0.4, 117});
     expect_differences(
         {load_model("electromagnetic-testbed"), {"V0", "zeta", "e", "beta1", "R", "w0", "delta", "Ll"}, 0, 0.6, 119});

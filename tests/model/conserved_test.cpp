@@ -101,6 +101,28 @@ TEST(Conserved, StatesOnWhichNothingDependsAreFoundAloneAndInPairs) {
     EXPECT_EQ(*run.states[4].drifts_with, 0U);
 }
 
+/// A body and two feet, of which one takes the place of the other; and two bodies that have nothing to do with one
+/// another.
+TEST(Conserved, StatesOfWhichOnlyDistancesMatterAreFoundInSets) {
+    const Model walk =
+        model_from("[states]\ny = 1\nrear = 0\nx = 0.1\nw = 0\nfront = 0.3\n[modes.on]\n"
+                   "rates = { y = 'w', w = '-y', rear = 0, x = 'w', front = 0 }\nwatch = ['off']\n[modes.both]\n"
+                   "rates = { y = 'w', w = '(x - rear) - y + (x - front)^3', rear = 0, x = 'w', front = 0 }\n"
+                   "[events]\noff = 'x - rear - 1'\n[jumps.swing]\nrear = 'front'\nfront = 'x + y'\n[[transitions]]\n"
+                   "mode = 'on'\nevent = 'off'\njump = 'swing'\nnext = 'both'\n[initial]\nmode = 'on'\n"
+                   "[conserved]\nheight = 0\n");
+    EXPECT_TRUE(walk.states[1].drifting);
+    EXPECT_EQ(walk.states[2].drifts_with, std::optional<std::size_t>(1));
+    EXPECT_EQ(walk.states[4].drifts_with, std::optional<std::size_t>(1));
+    EXPECT_FALSE(walk.states[0].drifting || walk.states[3].drifting || walk.states[0].drifts_with);
+    const Model apart = model_from("[states]\na = 0\nb = 1\nc = 0\nd = 2\n[modes.on]\n"
+                                   "rates = { a = 'b - a', b = 'a - b', c = 'd - c', d = 'sin(c - d)' }\n"
+                                   "[conserved]\nsum = 'a + b'\n");
+    EXPECT_FALSE(apart.states[0].drifting); // the sum itself is moved
+    EXPECT_TRUE(apart.states[2].drifting);
+    EXPECT_EQ(apart.states[3].drifts_with, std::optional<std::size_t>(2));
+}
+
 TEST(Conserved, NamesAreChecked) {
     EXPECT_NE(message_of([] {
                   with_stop("period = 'v^2/2 + x^2/2'");

@@ -56,8 +56,8 @@ TEST(DryFriction, ForceOpposesTheMotion) {
     for (int trial = 0; trial < 50; ++trial) {
         const std::vector<double> state = random_state(model, 2, random);
         const double force = quantity(model, "force", state);
-        EXPECT_NEAR(rates(model, "slip_plus", state)[1], force - 0.3, 8 * epsilon);
-        EXPECT_NEAR(rates(model, "slip_minus", state)[1], force + 0.3, 8 * epsilon);
+        EXPECT_NEAR(rates(model, "mass-forward", state)[1], force - 0.3, 8 * epsilon);
+        EXPECT_NEAR(rates(model, "mass-backward", state)[1], force + 0.3, 8 * epsilon);
     }
 }
 
@@ -65,8 +65,8 @@ TEST(DryFriction, ModeAfterAStopIsConsistentWithTheForces) {
     const Model model = shipped("dry-friction-oscillator");
     std::mt19937_64 random(7);
     std::map<std::string, int> seen;
-    for (const char* from : {"slip_plus", "slip_minus"}) {
-        const double direction = std::string(from) == "slip_plus" ? 1 : -1;
+    for (const char* from : {"mass-forward", "mass-backward"}) {
+        const double direction = std::string(from) == "mass-forward" ? 1 : -1;
         const std::size_t mode = mode_index(model, from);
         const Transition* stop = model.find_transition(mode, model.modes[mode].watched[0]);
         for (int trial = 0; trial < 300; ++trial) {
@@ -78,9 +78,9 @@ TEST(DryFriction, ModeAfterAStopIsConsistentWithTheForces) {
             const std::string next = next_mode(model, *stop, after);
             ++seen[next];
             const double force = quantity(model, "force", after);
-            EXPECT_EQ(next == "stick", std::abs(force) <= 0.4);
+            EXPECT_EQ(next == "mass-stick", std::abs(force) <= 0.4);
             // Slip continues in the other direction, and the acceleration agrees with it.
-            if (next != "stick") {
+            if (next != "mass-stick") {
                 EXPECT_LT(direction * rates(model, next.c_str(), after)[1], 0);
             }
         }

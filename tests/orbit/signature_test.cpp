@@ -26,6 +26,10 @@ TEST(Signature, RepetitionsAndSeparatorsAreNormalised) {
     EXPECT_EQ(rewritten("impact-microactuator", "{J1 J8}^10, J1, J8"), "(J1 J8)^11");
     EXPECT_EQ(rewritten("impact-oscillator", "impact^3"), "impact^3");
     EXPECT_EQ(rewritten("electromagnetic-testbed", "phase0"), "phase0");
+    // Names that are derived have hyphens and colons.
+    EXPECT_EQ(rewritten("dry-friction-oscillator", "mass-backward:stops, mass-forward:stops"),
+              "mass-backward:stops mass-forward:stops");
+    EXPECT_EQ(rewritten("impact-oscillator-two-stops", "(free:right free:left)^2"), "(free:right free:left)^2");
 }
 
 TEST(Signature, ModesFollowFromTheGraph) {

@@ -355,8 +355,8 @@ TEST(ProposedRun, ATwinIsTheSymmetricImage) {
     const std::vector<OrbitRecord> images = both.file.orbits(twin.name, false);
     ASSERT_FALSE(images.empty());
     const Model& model = both.study.runs.front().model;
-    EXPECT_EQ(to_string(model, both.file.orbit("one", std::size_t{0})->point.solution.orbit.signature), "R");
-    EXPECT_EQ(to_string(model, images.front().point.solution.orbit.signature), "L");
+    EXPECT_EQ(to_string(model, both.file.orbit("one", std::size_t{0})->point.solution.orbit.signature), "free:right");
+    EXPECT_EQ(to_string(model, images.front().point.solution.orbit.signature), "free:left");
 }
 
 TEST(ProposedRun, RefusesWhatIsNotPossible) {

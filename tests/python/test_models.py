@@ -86,12 +86,12 @@ def test_the_initial_mode_can_be_set():
 
 def test_names_of_all_parts_are_known():
     model = graze.Model.shipped("impact-oscillator-two-stops")
-    assert model.modes == ("free", "stuck_right", "stuck_left")
-    assert model.events == ("right", "left", "release_right", "release_left")
-    assert model.jumps == ("identity", "impact", "stick_right", "stick_left")
+    assert set(model.modes) == {"free", "free-right", "free-left"}
+    assert set(model.events) == {"right", "left", "free-right-right-opens", "free-left-left-opens"}
+    assert set(model.jumps) == {"identity", "impact-right", "rest-right", "impact-left", "rest-left"}
     assert model.sections == ("phase0", "phasepi", "turning") and model.symmetries == ("reflection",)
     assert model.quantities == ("gap_right", "gap_left", "energy") and model.definitions == ("force",)
-    assert model.transitions[0] == ("R", "free", "right", "impact")
+    assert model.transitions[0] == ("free:right", "free", "right", "impact-right")
     assert model.periods == {"theta": 2 * math.pi}
     assert model.states[0].text == "position"
 

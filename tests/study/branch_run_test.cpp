@@ -579,7 +579,8 @@ TEST_F(BranchRun, MistakesAreReportedWithPlaceAndRemedy) {
 
 TEST_F(BranchRun, FollowsSymmetricOrbitsByTheirHalfWhereverTheyComeFrom) {
     const std::string head = "name = \"s\"\nmodel = \"impact-oscillator-two-stops\"\n";
-    run(head + "[runs.asked]\nkind = \"orbit\"\nsignature = \"R L\"\n[runs.settled]\nkind = \"orbit\"\n");
+    run(head +
+        "[runs.asked]\nkind = \"orbit\"\nsignature = \"free:right free:left\"\n[runs.settled]\nkind = \"orbit\"\n");
     const ResultFile file(path_, ResultFile::Access::read);
     const auto asked = file.orbit("asked", std::size_t{0}), settled = file.orbit("settled", std::size_t{0});
     ASSERT_TRUE(asked && settled);

@@ -206,24 +206,31 @@ transitions = [
     expect_near(one.state(), other.state(), 1e-9);
 }
 
-/// The shipped oscillator between two stops, against the same with declared contacts, in motions that also rest at the
-/// stops.
-TEST(Contacts, TwoStopsAsShipped) {
+/// The shipped oscillator between two stops, which are declared contacts, against the same with modes and transitions
+/// written by hand, in motions that also rest at the stops.
+TEST(Contacts, TwoStopsAsWrittenByHand) {
     const std::string stops = R"toml(
 parameters = { zeta = 0.02, omega = 1.2, amplitude = 1, sigma = 1, e = 0.7 }
 states = { x = 0, v = 0, theta = { initial = 0, period = "2*pi" } }
-modes.free.rates = { x = "v", v = "amplitude*cos(theta) - 2*zeta*v - x", theta = "omega" }
-contacts.velocities = ["v"]
-contacts.mass = [1]
-contacts.right = { gap = "sigma - x", restitution = "e" }
-contacts.left = { gap = "sigma + x", restitution = "e" }
+definitions.force = "amplitude*cos(theta) - 2*zeta*v - x"
+modes.free = { rates = { x = "v", v = "force", theta = "omega" }, watch = ["right", "left"] }
+modes.stuck_right = { rates = { x = 0, v = 0, theta = "omega" }, watch = ["release_right"] }
+modes.stuck_left = { rates = { x = 0, v = 0, theta = "omega" }, watch = ["release_left"] }
+events = { right = "sigma - x", left = "sigma + x", release_right = "force", release_left = "-force" }
+jumps = { impact = { v = "-e*v" }, stick_right = { x = "sigma", v = 0 }, stick_left = { x = "-sigma", v = 0 } }
+initial.mode = "free"
+transitions = [
+    { mode = "free", event = "right", jump = "impact", next = [{ when = "v < 0", mode = "free" }, { when = "force > 0", mode = "stuck_right" }, { mode = "free" }], chatter = { jump = "stick_right", mode = "stuck_right" } },
+    { mode = "free", event = "left", jump = "impact", next = [{ when = "v > 0", mode = "free" }, { when = "force < 0", mode = "stuck_left" }, { mode = "free" }], chatter = { jump = "stick_left", mode = "stuck_left" } },
+    { mode = "stuck_right", event = "release_right", jump = "stick_right", next = "free" },
+    { mode = "stuck_left", event = "release_left", jump = "stick_left", next = "free" },
+]
 )toml";
     for (const auto& [omega, e] : {std::pair(1.2, 0.7), std::pair(0.05, 0.7), std::pair(0.3, 0.2)}) {
         Model model = model_from(stops);
         model.set_parameter("omega", omega);
         model.set_parameter("e", e);
-        Experiment one(model), other(shipped_with("impact-oscillator-two-stops",
-                                                  {{"omega", omega}, {"e", e}, {"zeta", 0.02}, {"sigma", 1}}));
+        Experiment one(model), other(shipped_with("impact-oscillator-two-stops", {{"omega", omega}, {"e", e}}));
         EXPECT_EQ(one.run(60).ending, Ending::end_time);
         EXPECT_EQ(other.run(60).ending, Ending::end_time);
         EXPECT_EQ(one.recorder.contacts().size(), other.recorder.contacts().size()) << omega;

@@ -185,9 +185,8 @@ void expect_same_contacts(const Experiment& made, const Experiment& written, dou
     }
 }
 
-/// The shipped oscillator as equations and a law: the same motion bit for bit.
-TEST(Friction, GivesTheMotionOfTheModelThatIsWrittenByHand) {
-    const std::string law = R"toml(name = "oscillator"
+/// The shipped oscillator, which is equations and a law, with its modes and transitions written by hand.
+const char* const oscillator = R"toml(name = "oscillator"
 [parameters]
 zeta = 0.01
 omega = 0.4
@@ -198,26 +197,46 @@ friction_dynamic = 0.3
 x = "amplitude"
 v = 0
 theta = { initial = 0, period = "2*pi" }
-[modes.free]
-rates = { x = "v", v = "amplitude*cos(theta) - 2*zeta*v - x - rub", theta = "omega" }
-[friction.rub]
-velocity = "v"
-normal = 1
-coefficient = "friction_dynamic"
-static = "friction_static"
+[definitions]
+force = "amplitude*cos(theta) - 2*zeta*v - x"
+[modes.slip_plus]
+rates = { x = "v", v = "force - friction_dynamic", theta = "omega" }
+watch = ["stop_plus"]
+[modes.slip_minus]
+rates = { x = "v", v = "force + friction_dynamic", theta = "omega" }
+watch = ["stop_minus"]
+[modes.stick]
+rates = { x = 0, v = 0, theta = "omega" }
+watch = ["break_plus", "break_minus"]
+[events]
+stop_plus = "v"
+stop_minus = "-v"
+break_plus = "friction_static - force"
+break_minus = "friction_static + force"
+[jumps.stop]
+v = 0
+[initial]
+mode = "stick"
 )toml";
+
+TEST(Friction, GivesTheMotionOfTheModelThatIsWrittenByHand) {
+    const Model by_hand = model_from(
+        oscillator +
+        transition("slip_plus", "stop_plus",
+                   "[{ when = 'friction_static + force >= 0', mode = 'stick' }, { mode = 'slip_minus' }]", "stop") +
+        transition("slip_minus", "stop_minus",
+                   "[{ when = 'friction_static - force >= 0', mode = 'stick' }, { mode = 'slip_plus' }]", "stop") +
+        transition("stick", "break_plus", "slip_plus") + transition("stick", "break_minus", "slip_minus"));
     for (const double omega : {0.15, 0.4, 0.7, 1.3})
         for (const double friction : {0.1, 0.3}) {
-            Model model = model_from(law);
             const Settings settings{
                 {"omega", omega}, {"friction_dynamic", friction}, {"friction_static", 1.3 * friction}};
+            Model hand = by_hand;
             for (const auto& [name, value] : settings)
-                model.set_parameter(name, value);
-            model.set_initial("x", 3);
-            Experiment made(model), written(shipped_with("dry-friction-oscillator", settings));
+                hand.set_parameter(name, value);
+            Experiment made(started(shipped_with("dry-friction-oscillator", settings), {{"x", 3}})), written(hand);
             made.run(200);
-            written.run_from({3, 0, 0}, *written.simulation.model().find_mode(friction > 0 ? "slip_minus" : "stick"),
-                             200);
+            written.run_from({3, 0, 0}, *written.simulation.model().find_mode("slip_minus"), 200);
             expect_same_contacts(made, written, 0);
             EXPECT_GT(made.recorder.contacts().size(), 10U);
         }

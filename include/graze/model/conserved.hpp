@@ -26,7 +26,7 @@ bool conserves_something(const Model& model, std::span<const double> parameters)
 std::vector<std::size_t> ignorable_states(const Model& model);
 
 /// Lets orbits of a model with conserved quantities drift along its ignorable coordinates, unless a state is cyclic,
-/// and along pairs of states that may be translated together.
+/// and along sets of states that may be translated together.
 void let_ignorable_states_drift(Model& model);
 
 } // namespace graze
