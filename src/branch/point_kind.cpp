@@ -135,7 +135,7 @@ constexpr std::array table{
     PointRule{.kind = kind(PointType::zero_hopf, "ZH", "zero-Hopf point", may_stop, 15)},
     PointRule{.kind = kind(PointType::double_hopf, "HH", "double Hopf point", may_stop, 15)},
     PointRule{.kind = kind(PointType::generalised_hopf, "GH", "generalised Hopf point", may_stop, 11)},
-    PointRule{.kind = kind(PointType::homoclinic, "HC", "homoclinic orbit", changes | may_be_kept, 13),
+    PointRule{.kind = kind(PointType::homoclinic, "HC", "homoclinic orbit", changes | may_be_kept, 3),
               .condition = condition_of_homoclinic},
     PointRule{.kind = kind(PointType::extremum, "EX", "extremum", may_stop, 1),
               .test = test_extremum,
