@@ -104,7 +104,7 @@ struct SignatureSearchOptions {
 /// orbit is its own image under a symmetry of the model.
 /// @return a solution that is not converged, whose orbit is the first guess, when no piece led to an orbit; empty when
 /// interrupted
-/// @throws InputError when the motion has no such piece, or all orbits found are inadmissible
+/// @throws InputError when the motion has no such piece, as for homoclinic orbits, or all orbits found are inadmissible
 std::optional<OrbitSolution> orbit_with_signature(const System& system, const Signature& signature,
                                                   const OrbitOptions& options = {},
                                                   const SimulationOptions& simulation = {},
