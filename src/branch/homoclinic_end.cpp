@@ -71,9 +71,7 @@ std::optional<SpecialPoint> HomoclinicEnd::find(BranchState& state, const Branch
     const Orbit& orbit = here.solution.orbit;
     if (settings.kept || settings.family || !settings.free.empty() || !becomes_longer(here) || !expands(equations, at))
         return std::nullopt;
-    const Eigen::VectorXd scales = at.scales.head(index(equations.layout().states()));
-    const double tolerance = settings.orbit.tolerance;
-    const auto candidate = homoclinic_candidate(state.system(), orbit, scales, tolerance);
+    const auto candidate = homoclinic_candidate(state.system(), orbit, settings.orbit.tolerance);
     if (!candidate || candidate->distance > std::min(near, nearer * sought_))
         return std::nullopt;
     sought_ = candidate->distance;

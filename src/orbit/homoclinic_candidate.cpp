@@ -1,6 +1,8 @@
+#include "base/concatenated.hpp"
 #include "graze/base/input_error.hpp"
 #include "orbit/newton.hpp"
 #include "orbit/orbit_flow.hpp"
+#include "orbit/orbit_scales.hpp"
 #include "orbit/saddle.hpp"
 #include "orbit/solve_homoclinic.hpp"
 
@@ -40,50 +42,93 @@ std::vector<Arc> arcs_of(const Orbit& orbit) {
     return arcs;
 }
 
-/// Where an orbit is slowest.
-struct SlowPlace {
+/// A state along arcs.
+struct ArcPlace {
     std::size_t arc = 0;
-    double time = 0;
+    double time = 0; ///< since the start of the arc
     std::vector<double> state;
-    double speed = std::numeric_limits<double>::infinity(), fastest = 0; ///< in scales of the states per time
 };
 
-/// @return empty where the orbit cannot be followed
-std::optional<SlowPlace> slowest_place(const std::vector<Arc>& arcs, ModeFlow& flow,
-                                       const std::vector<double>& parameters, const Eigen::VectorXd& scales) {
-    constexpr int parts = 200;
-    SlowPlace slowest;
-    for (std::size_t a = 0; a < arcs.size(); ++a) {
-        const std::size_t mode = arcs[a].end.mode;
-        std::vector<double> state = arcs[a].start;
-        for (int part = 0; part < parts; ++part) {
-            std::vector<double> inputs = state;
-            inputs.insert(inputs.end(), parameters.begin(), parameters.end());
-            const double speed = vector_of(flow.system().mode(mode).rates(inputs)).cwiseQuotient(scales).norm();
-            slowest.fastest = std::max(slowest.fastest, speed);
-            if (speed < slowest.speed) {
-                slowest.arc = a;
-                slowest.time = part * arcs[a].duration / parts;
-                slowest.state = state;
-                slowest.speed = speed;
+/// States along arcs, at equal intervals of time in each.
+class Samples {
+public:
+    Samples(const std::vector<Arc>& arcs, ModeFlow& flow) : flow_(&flow) {
+        for (std::size_t a = 0; a < arcs.size() && followed_; ++a)
+            follow(a, arcs[a].end.mode, arcs[a].start, arcs[a].duration);
+    }
+    Samples(std::size_t mode, const std::vector<double>& start, double duration, ModeFlow& flow) : flow_(&flow) {
+        follow(0, mode, start, duration);
+    }
+    bool are_complete() const { return followed_; }
+
+    /// Scales of the states: their extents.
+    Eigen::VectorXd scales() const {
+        const std::size_t states = flow_->system().states();
+        StateScales sizes(states);
+        sizes.begin();
+        for (const ArcPlace& place : places_)
+            sizes.note(place.state);
+        const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(index(states), index(states));
+        return vector_of(sizes.choose(flow_->system().periods()(flow_->parameters()), none, none));
+    }
+    struct Extremes {
+        ArcPlace slowest, fastest;
+        double least = std::numeric_limits<double>::infinity(), greatest = 0; ///< speeds there
+    };
+    Extremes extremes(const Eigen::VectorXd& scales) const {
+        Extremes result;
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+            const std::vector<double> inputs = concatenated(places_[i].state, flow_->parameters());
+            const double speed = vector_of(flow_->system().mode(modes_[i]).rates(inputs)).cwiseQuotient(scales).norm();
+            if (speed < result.least) {
+                result.least = speed;
+                result.slowest = places_[i];
             }
-            if (flow.run(mode, state, arcs[a].duration / parts) != ModeFlow::Ending::done)
-                return std::nullopt;
+            if (speed > result.greatest) {
+                result.greatest = speed;
+                result.fastest = places_[i];
+            }
+        }
+        return result;
+    }
+
+private:
+    void follow(std::size_t arc, std::size_t mode, std::vector<double> state, double duration) {
+        constexpr int parts = 200;
+        for (int part = 0; part < parts; ++part) {
+            places_.push_back({arc, part * duration / parts, state});
+            modes_.push_back(mode);
+            followed_ = followed_ && flow_->run(mode, state, duration / parts) == ModeFlow::Ending::done;
+            if (!followed_)
+                return;
         }
     }
-    return slowest;
-}
 
-/// The orbit from a time after the slow place to a time before it recurs.
-/// @param rounds number of arcs until it recurs
-std::optional<Orbit> orbit_between(const std::vector<Arc>& arcs, const SlowPlace& place, std::size_t rounds,
-                                   double round_time, std::vector<double> start, double after, double before) {
-    const Segment approach{arcs[place.arc].end.mode, SegmentEnd::saddle, 0};
+    ModeFlow* flow_;
+    std::vector<ArcPlace> places_;
+    std::vector<std::size_t> modes_;
+    bool followed_ = true;
+};
+
+/// The orbit from a time after a place at which it is slow to a time before it comes back to the saddle there.
+/// @param arcs between which it does; @param round_time after which it does
+std::optional<Orbit> orbit_between(const std::vector<Arc>& arcs, const ArcPlace& place, std::size_t rounds,
+                                   double round_time, std::vector<double> start, double after, double before,
+                                   ModeFlow& flow) {
+    const std::size_t mode = arcs[place.arc].end.mode;
+    const Segment approach{mode, SegmentEnd::saddle, 0};
     Orbit orbit;
     orbit.starts.push_back(std::move(start));
-    if (arcs[place.arc].end.end != SegmentEnd::event) { // without contacts
-        orbit.signature = {approach};
-        orbit.durations = {round_time - after - before};
+    if (arcs[place.arc].end.end != SegmentEnd::event) {
+        // Without contacts it is cut where it is fastest: deviations where it leaves the saddle then do not grow up to
+        // where it comes back.
+        const Samples round(mode, place.state, round_time, flow);
+        if (!round.are_complete())
+            return std::nullopt;
+        const ArcPlace cut = round.extremes(round.scales()).fastest;
+        orbit.starts.push_back(cut.state);
+        orbit.signature = {{mode, SegmentEnd::cut, 0}, approach};
+        orbit.durations = {cut.time - after, round_time - cut.time - before};
     } else {
         orbit.signature.push_back(arcs[place.arc].end);
         orbit.durations.push_back(arcs[place.arc].duration - place.time - after);
@@ -109,8 +154,7 @@ std::optional<Orbit> whole_of(const System& system, const Orbit& orbit) {
 
 } // namespace
 
-std::optional<HomoclinicCandidate> homoclinic_candidate(const System& system, const Orbit& orbit,
-                                                        const Eigen::VectorXd& scales, double tolerance) {
+std::optional<HomoclinicCandidate> homoclinic_candidate(const System& system, const Orbit& orbit, double tolerance) {
     // Largest share of the greatest speed; largest distance of the slow place from the saddle; the candidate begins and
     // ends at a multiple of that, where its distance from the spaces is small against that from the saddle.
     constexpr double slow = 0.1, nearest = 0.05, farther = 4, uncertain = 3;
@@ -121,14 +165,17 @@ std::optional<HomoclinicCandidate> homoclinic_candidate(const System& system, co
     const Simulation simulation(system, {}, {}, integration(tolerance));
     ModeFlow flow = flow_of(simulation);
     flow.set_parameters(orbit.parameters);
-    const auto place = slowest_place(arcs, flow, orbit.parameters, scales);
-    if (!place || !(place->speed < slow * place->fastest))
+    const Samples samples(arcs, flow);
+    const Eigen::VectorXd scales = samples.scales();
+    const Samples::Extremes extremes = samples.extremes(scales);
+    const ArcPlace& place = extremes.slowest;
+    if (!samples.are_complete() || !(extremes.least < slow * extremes.greatest))
         return std::nullopt;
-    const std::size_t mode = arcs[place->arc].end.mode;
+    const std::size_t mode = arcs[place.arc].end.mode;
     Saddle saddle(system, mode, {}, scales);
-    if (!saddle.find(place->state, orbit.parameters))
+    if (!saddle.find(place.state, orbit.parameters))
         return std::nullopt;
-    const Eigen::VectorXd there = saddle.to_coordinates() * saddle.from_saddle(place->state);
+    const Eigen::VectorXd there = saddle.to_coordinates() * saddle.from_saddle(place.state);
     const double distance = there.norm();
     if (!(distance < nearest))
         return std::nullopt;
@@ -138,8 +185,8 @@ std::optional<HomoclinicCandidate> homoclinic_candidate(const System& system, co
     const double after = saddle.time_to(farther * distance, leaving),
                  before = -saddle.time_to(farther * distance, coming);
     const std::size_t half = orbit.symmetry ? 2 : 1;
-    auto candidate = orbit_between(arcs, *place, arcs.size() / half, orbit.return_time(),
-                                   saddle.state_at(saddle.moved(leaving, after)), after, before);
+    auto candidate = orbit_between(arcs, place, arcs.size() / half, orbit.return_time(),
+                                   saddle.state_at(saddle.moved(leaving, after)), after, before, flow);
     if (!candidate)
         return std::nullopt;
     candidate->parameters = orbit.parameters;

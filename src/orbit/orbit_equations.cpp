@@ -84,14 +84,26 @@ void OrbitEquations::lay_out(const Orbit& orbit, const std::vector<std::size_t>&
         set_scales(unknowns);
 }
 
-/// Keeps the distances from the saddle at which an orbit begins and ends.
+/// Keeps the distances from the saddle at which an orbit begins and ends, in units of the extents of the states.
 void OrbitEquations::keep_distances(const Eigen::VectorXd& unknowns) {
-    const std::size_t n = layout_.states(), last = layout_.pieces() - 1;
-    const double* const begin = unknowns.data() + layout_.start_of(last);
-    std::vector<double> end(begin, begin + n), parameters;
+    constexpr int parts = 8;
+    const std::size_t n = layout_.states();
+    std::vector<double> end, parameters;
     set_parameters(unknowns, parameters);
-    flow_.run(modes_.back(), end, unknowns[index(layout_.duration_of(last))]);
-    homoclinic_->keep_distances({unknowns.data(), n}, end, parameters, scales_.head(index(n)));
+    StateScales extents(n);
+    extents.begin();
+    for (std::size_t k = 0; k < layout_.pieces(); ++k) {
+        const double* const start = unknowns.data() + layout_.start_of(k);
+        end.assign(start, start + n);
+        extents.note(end);
+        for (int part = 0; part < parts; ++part) {
+            flow_.run(mode_of(k), end, unknowns[index(layout_.duration_of(k))] / parts);
+            extents.note(end);
+        }
+    }
+    const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(index(n), index(n));
+    homoclinic_->keep_distances({unknowns.data(), n}, end, parameters,
+                                vector_of(extents.choose(ends_.periods(), none, none)));
 }
 
 Eigen::VectorXd OrbitEquations::unknowns_of(const Orbit& orbit) {

@@ -24,7 +24,7 @@ struct Distances {
 /// manifold by d^2. Followed back along the orbit that shrinks with the slowest growth g, while d grows with the
 /// slowest decay s: the effect on the parameter is of the order d^(2 + g/s). The same holds for the beginning with s/g.
 Distances wanted_distances(const Saddle& saddle) {
-    constexpr double round_off = 1e-13, least = 1e-7, greatest = 0.02;
+    constexpr double round_off = 1e-14, least = 1e-7, greatest = 0.02;
     const double growth = saddle.slowest_growth(), decay = saddle.slowest_decay();
     const auto distance = [&](double ratio) {
         return std::clamp(std::pow(round_off, 1 / (2 + ratio)), least, greatest);
@@ -172,7 +172,9 @@ private:
     void complete(double coarse) {
         constexpr double round_off = 1e-13;
         const double scale = equations_->scales()[index(equations_->layout().parameter(0))];
-        result_.error = std::abs(result_.parameter - coarse) + round_off * scale;
+        // A change of the parameter by its scale, or one that has an effect of the size of the orbit.
+        const double change = std::max(scale, at_->effects[0] > 0 ? 1 / at_->effects[0] : 0);
+        result_.error = std::abs(result_.parameter - coarse) + round_off * change;
         result_.solution.error = result_.error / scale;
         describe_orbit(*equations_, *at_, result_.solution);
     }

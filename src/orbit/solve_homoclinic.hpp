@@ -36,9 +36,8 @@ struct HomoclinicCandidate {
     double distance = 0; ///< at which the periodic orbit passes the saddle, relative to the extent of its states
 };
 /// Returns the candidate for the homoclinic orbit beside a periodic orbit, from where that is slowest. Half of an orbit
-/// with a symmetry leads to a candidate if the saddle is its own image. @param scales of the states
-/// @return empty where the orbit passes no saddle
+/// with a symmetry leads to a candidate if the saddle is its own image. @return empty where the orbit passes no saddle
 std::optional<HomoclinicCandidate> homoclinic_candidate(const System& system, const Orbit& orbit,
-                                                        const Eigen::VectorXd& scales, double tolerance);
+                                                        double tolerance);
 
 } // namespace graze

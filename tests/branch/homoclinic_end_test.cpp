@@ -131,17 +131,19 @@ Model cubic_loop(double a, double b, double m) {
 }
 
 TEST(HomoclinicEnd, CubicLoopIsExactForAllEigenvalues) {
-    for (const auto& [a, m] : {std::pair(-0.4, 0.05), {-0.7, 0.1}, {-0.1, 0.02}}) {
-        // Inside the loop there is a stable orbit for one sign of m.
+    for (const auto& [a, m] : {std::pair(-0.4, 0.02), {-0.7, 0.03}, {-0.1, 0.004}}) {
+        // Inside the loop there is a stable orbit between m = 0 and the Hopf point at -a/12.
         const Model model = cubic_loop(a, 1, m);
         const Branch branch =
             follow_branch(System(model), settled(model, "s").orbit, in_parameter(model, "m", -1, 1, m > 0 ? -1 : 1));
-        expect_value(end_of(branch), 0, 1e-11);
+        const SpecialPoint end = end_of(branch);
+        EXPECT_NEAR(end.parameter, 0, 1e-12) << end.detail;
+        expect_value(end, 0, 1e-11);
     }
 }
 
 TEST(HomoclinicEnd, CurveOfTheCubicLoopStaysWhereItIs) {
-    const Model model = cubic_loop(-0.4, 1, 0.05);
+    const Model model = cubic_loop(-0.4, 1, 0.02);
     const Branch branch = follow_branch(System(model), settled(model, "s").orbit, in_parameter(model, "m", -1, 1, -1));
     const SpecialPoint end = end_of(branch);
     for (const int direction : {1, -1}) {
@@ -180,7 +182,7 @@ TEST(HomoclinicEnd, OrbitsInsideAndOutsideTheFigureEightBecomeItsLoops) {
         // From the distance d at either end, sqrt(2) sech takes log(8 / x^2) with x = d / sqrt(2) in states.
         const double begin = std::abs(end.solution.orbit.starts[0][0]);
         EXPECT_NEAR(begin, std::abs(end.solution.orbit.starts[0][1]), 1e-8 * begin);
-        EXPECT_NEAR(end.solution.orbit.durations[0], std::log(8 / (begin * begin)), 1e-4);
+        EXPECT_NEAR(end.solution.orbit.return_time(), std::log(8 / (begin * begin)), 1e-4);
     }
 }
 
