@@ -179,11 +179,29 @@ TEST(HomoclinicEnd, OrbitsInsideAndOutsideTheFigureEightBecomeItsLoops) {
         const SpecialPoint end = end_of(branch);
         expect_value(end, 0, 1e-11);
         EXPECT_FALSE(end.solution.orbit.symmetry);
-        // From the distance d at either end, sqrt(2) sech takes log(8 / x^2) with x = d / sqrt(2) in states.
+        // From a small x at its beginning to one at its end, sqrt(2) sech(t) takes log(8 / x^2).
         const double begin = std::abs(end.solution.orbit.starts[0][0]);
         EXPECT_NEAR(begin, std::abs(end.solution.orbit.starts[0][1]), 1e-8 * begin);
         EXPECT_NEAR(end.solution.orbit.return_time(), std::log(8 / (begin * begin)), 1e-4);
     }
+}
+
+/// A pendulum with friction as above: it turns over from one upper position to the next for m = 0, and for m < 0 all
+/// the time.
+TEST(HomoclinicEnd, PendulumTurnsOverFromItsUpperPositionToTheNext) {
+    const Model model = OneMode{.parameters = "m = -0.1",
+                                .states = "q = { initial = 0, period = '2*pi' }\nv = 2.1",
+                                .definitions = "h = 'v^2/2 - cos(q) - 1'",
+                                .rates = "q = 'v', v = '-sin(q) - v*(h + m)'",
+                                .more = "[sections.below]\nstate = 'q'\nvalue = 0\n"}
+                            .model();
+    const Branch branch =
+        follow_branch(System(model), settled(model, "below").orbit, in_parameter(model, "m", -1, 1, 1));
+    const SpecialPoint end = end_of(branch);
+    expect_value(end, 0, 1e-11);
+    // v = 2 cos(q/2) = 2 sech(t) takes log(16 / v^2).
+    const double begin = std::abs(end.solution.orbit.starts[0][1]);
+    EXPECT_NEAR(end.solution.orbit.return_time(), std::log(16 / (begin * begin)), 1e-4);
 }
 
 /// A saddle x' = l x with a decaying spiral of (y, z) and a jump at x = 1 to (m + c y, 1, 0): orbits of period T exist
