@@ -86,7 +86,7 @@ void OrbitEquations::lay_out(const Orbit& orbit, const std::vector<std::size_t>&
 
 /// Keeps the distances from the saddle at which an orbit begins and ends, in units of the extents of the states.
 void OrbitEquations::keep_distances(const Eigen::VectorXd& unknowns) {
-    constexpr int parts = 8;
+    constexpr int parts = 24;
     const std::size_t n = layout_.states();
     std::vector<double> end, parameters;
     set_parameters(unknowns, parameters);

@@ -24,7 +24,7 @@ struct Distances {
 /// manifold by d^2. Followed back along the orbit that shrinks with the slowest growth g, while d grows with the
 /// slowest decay s: the effect on the parameter is of the order d^(2 + g/s). The same holds for the beginning with s/g.
 Distances wanted_distances(const Saddle& saddle) {
-    constexpr double round_off = 1e-14, least = 1e-7, greatest = 0.02;
+    constexpr double round_off = 1e-13, least = 1e-7, greatest = 0.05;
     const double growth = saddle.slowest_growth(), decay = saddle.slowest_decay();
     const auto distance = [&](double ratio) {
         return std::clamp(std::pow(round_off, 1 / (2 + ratio)), least, greatest);
@@ -56,25 +56,28 @@ public:
     HomoclinicSolver(const System& system, ParameterId parameter, const OrbitOptions& options)
         : simulation_(system, {}, {}, integration(options.tolerance)), parameter_(parameter), options_(options) {}
 
-    HomoclinicSolution solve(Orbit orbit) {
+    HomoclinicSolution solve(const Orbit& candidate) {
         constexpr int most_changes = 30;
-        constexpr double same = 1.1, larger = 2;
-        std::optional<double> coarse;
+        constexpr double larger = 2;
+        if (!solve_at_distances(candidate))
+            return std::move(result_);
+        std::optional<double> coarse; // the parameter at larger distances
         for (int change = 0; change < most_changes; ++change) {
-            if (!solve_at_distances(orbit))
+            const Distances wanted = wanted_distances(saddle()),
+                            target = coarse ? wanted : Distances{larger * wanted.departure, larger * wanted.approach},
+                            next = on_the_way(distances_of(*equations_->homoclinic_ends()), target, saddle());
+            const auto orbit = at(next);
+            if (!orbit)
+                break;
+            if (!solve_at_distances(*orbit))
                 return std::move(result_);
-            const Distances here = distances_of(*equations_->homoclinic_ends()), wanted = wanted_distances(saddle()),
-                            first{larger * wanted.departure, larger * wanted.approach};
-            if (coarse && are_near(here, wanted, same)) {
+            if (next.departure != target.departure || next.approach != target.approach)
+                continue;
+            if (coarse) {
                 complete(*coarse);
                 return std::move(result_);
             }
-            if (are_near(here, first, same))
-                coarse = result_.parameter;
-            const auto next = at(on_the_way(here, coarse ? wanted : first, saddle()));
-            if (!next)
-                break;
-            orbit = *next;
+            coarse = result_.parameter;
         }
         result_.solution.outcome = OrbitOutcome::not_converged;
         result_.solution.detail = "no distances from the saddle are found at which the orbit is accurate";
@@ -170,7 +173,7 @@ private:
 
     /// @param coarse the parameter at twice the distances
     void complete(double coarse) {
-        constexpr double round_off = 1e-13;
+        constexpr double round_off = 1e-12;
         const double scale = equations_->scales()[index(equations_->layout().parameter(0))];
         // A change of the parameter by its scale, or one that has an effect of the size of the orbit.
         const double change = std::max(scale, at_->effects[0] > 0 ? 1 / at_->effects[0] : 0);
