@@ -4,6 +4,7 @@
 #include "graze/base/input_error.hpp"
 #include "graze/branch/curve_start.hpp"
 #include "orbit/eigen_index.hpp"
+#include "orbit/homoclinic_candidate.hpp"
 #include "orbit/solve_homoclinic.hpp"
 
 #include <fmt/format.h>

@@ -1,10 +1,11 @@
+#include "orbit/homoclinic_candidate.hpp"
+
 #include "base/concatenated.hpp"
 #include "graze/base/input_error.hpp"
 #include "orbit/newton.hpp"
 #include "orbit/orbit_flow.hpp"
 #include "orbit/orbit_scales.hpp"
 #include "orbit/saddle.hpp"
-#include "orbit/solve_homoclinic.hpp"
 
 #include <algorithm>
 #include <cmath>

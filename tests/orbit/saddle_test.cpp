@@ -2,8 +2,7 @@
 
 #include "orbit/saddle.hpp"
 
-#include "orbit/homoclinic_ends.hpp"
-#include "trajectory/model_parts.hpp"
+#include "orbit/saddle_focus.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,15 +12,6 @@
 namespace graze::saddle_test {
 
 using namespace graze::testing;
-
-/// A saddle at x = p, y = z = p^2 with two complex stable eigenvalues and nonlinear terms.
-Model focus() {
-    return OneMode{.parameters = "p = 0.4\nq = 1.3",
-                   .states = "x = 0.5\ny = 0.1\nz = 0.2",
-                   .definitions = "u = 'x - p'\nr = 'y - p^2'\ns = 'z - p^2'",
-                   .rates = "x = 'q*u + p*r + u*r', y = '-0.3*r - q*s + p*u + u^2', z = 'q*r - 0.3*s + s*u + 0.2*u'"}
-        .model();
-}
 
 Saddle saddle_of(const Model& model, std::vector<ParameterId> free = {}) {
     return {System(model), 0, std::move(free), Eigen::Vector3d(1, 0.5, 2)};
@@ -115,42 +105,6 @@ TEST(Saddle, RefusesWhatIsNone) {
               "the equilibrium has an eigenvalue on the imaginary axis: it is no saddle");
     EXPECT_EQ(problem_of("x = '1 + x^2', y = '-y'"), "no equilibrium is found where the orbit begins");
     EXPECT_NE(problem_of("x = 'x', y = '-y'", "1").find("no clock"), std::string::npos);
-}
-
-TEST(HomoclinicEnds, ConditionsAgreeWithDifferences) {
-    const Model model = focus();
-    const std::vector<double> values = model.parameter_values(), begin{0.45, 0.18, 0.15}, end{0.41, 0.2, 0.1};
-    const std::vector<ParameterId> free{model.independent_parameter("p"), model.independent_parameter("q")};
-    HomoclinicEnds ends(System(model), 0, free);
-    ends.keep_distances(begin, end, values, Eigen::Vector3d(1, 0.5, 2));
-    ASSERT_TRUE(ends.set_parameters(values)) << ends.problem();
-    EXPECT_NEAR(ends.departs(begin).value, 0, 1e-15);
-    EXPECT_NEAR(ends.approaches(end).value, 0, 1e-15);
-    const Eigen::VectorXd departs = ends.departs(begin).gradient, approaches = ends.approaches(end).gradient;
-    constexpr double step = 1e-6;
-    const auto differences = [&](const auto& value) {
-        Eigen::VectorXd result(5);
-        for (std::size_t i = 0; i < 5; ++i) {
-            const auto at = [&](double change) {
-                std::vector<double> parameters = values, first = begin, last = end;
-                if (i < 3)
-                    first[i] += change, last[i] += change;
-                else
-                    parameters[free[i - 3].place()] += change;
-                EXPECT_TRUE(ends.set_parameters(parameters));
-                return value(first, last);
-            };
-            result[static_cast<Eigen::Index>(i)] = (at(step) - at(-step)) / (2 * step);
-        }
-        return result;
-    };
-    EXPECT_LT((differences([&](const auto& first, const auto&) { return ends.departs(first).value; }) - departs).norm(),
-              1e-8);
-    EXPECT_LT(
-        (differences([&](const auto&, const auto& last) { return ends.approaches(last).value; }) - approaches).norm(),
-        1e-8);
-    ends.set_parameters(values);
-    EXPECT_FALSE(ends.have_turned());
 }
 
 } // namespace graze::saddle_test

@@ -40,7 +40,7 @@ TEST(SolveHomoclinic, FindsParameterAndPhaseWithTwoUnstableDirections) {
             solve_homoclinic(System(model), guess(model, begin, end, 0.01), model.independent_parameter("m"));
         ASSERT_EQ(found.solution.outcome, OrbitOutcome::converged) << found.solution.detail;
         EXPECT_NEAR(found.parameter, 0, 1e-13);
-        EXPECT_LT(found.error, 1e-12);
+        EXPECT_LT(found.error, 1e-11); // of the parameter, whose effect is of the order of 1
         EXPECT_EQ(found.solution.orbit.parameters[3], found.parameter);
         EXPECT_TRUE(found.solution.certificate.admissible) << found.solution.certificate.reason;
         // Of a linear field the orbit is exact: at the gate z = 0, and beyond it the spiral does not begin again.
