@@ -159,6 +159,27 @@ TEST(HomoclinicEnd, CurveOfTheCubicLoopStaysWhereItIs) {
     }
 }
 
+TEST(HomoclinicEnd, CurveFindsWhereTheLoopTouchesAWall) {
+    // The loop y^2 = x^2 (1 - x) is highest at x = 2/3.
+    const auto below_wall = [](double wall) {
+        return OneMode{.parameters = fmt::format("m = 0.02\nwall = {:.17g}", wall),
+                       .states = "x = 0.9\ny = 0",
+                       .rates = "x = '-0.4*x + y + 0.4*x^2 + m*x*(2 - 3*x)', "
+                                "y = 'x - 0.4*y - 1.5*x^2 + 0.6*x*y - 2*m*y'",
+                       .stops = {{"ceiling", "wall - y", "y = '-y'", "impact"}},
+                       .more = section("s", "y")}
+            .model();
+    };
+    const Model model = below_wall(0.6);
+    const SpecialPoint end =
+        end_of(follow_branch(System(model), settled(model, "s").orbit, in_parameter(model, "m", -1, 1, -1)));
+    const Branch curve = curve_of(model, end, in_parameter(model, "wall", 0.1, 1), "m", std::nullopt, std::nullopt, -1);
+    EXPECT_EQ(names(curve), "GR") << curve.detail;
+    EXPECT_EQ(curve.outcome, BranchOutcome::unphysical);
+    ASSERT_FALSE(curve.special.empty());
+    EXPECT_NEAR(curve.special[0].parameter, std::sqrt(4.0 / 27), 1e-10);
+}
+
 /// x'' = x - x^3 - v (h + m) with the energy h of the oscillator without friction: the loops x = sqrt(2) sech(t) and
 /// their images stay for m = 0. Outside of them there is a stable orbit for m < 0, with a symmetry, inside one for m >
 /// 0.
