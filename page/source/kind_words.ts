@@ -31,6 +31,7 @@ const words: Record<string, string> = {
   ZH: "zero-Hopf point",
   HH: "double Hopf point",
   GH: "generalised Hopf point",
+  HC: "homoclinic orbit",
   EX: "extremum",
   BD: "bound",
   UZ: "crossing",

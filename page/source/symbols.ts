@@ -93,6 +93,7 @@ const byType: Record<string, Glyph> = {
   ZH: filled(star(3, 0.45)),
   HH: filled(star(4, 0.45)),
   GH: open(down, dot),
+  HC: open(round(0.9) + cross),
   EX: byNumber[1],
   UZ: byNumber[2],
 };

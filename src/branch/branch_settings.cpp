@@ -121,7 +121,7 @@ void BranchSettings::validate(const Model& model) const {
 bool ends_at_point(BranchOutcome outcome) {
     return outcome == BranchOutcome::bound || outcome == BranchOutcome::stopped ||
            outcome == BranchOutcome::unphysical || outcome == BranchOutcome::returned ||
-           outcome == BranchOutcome::shrunk;
+           outcome == BranchOutcome::shrunk || outcome == BranchOutcome::homoclinic;
 }
 
 std::string_view name_of(BranchOutcome outcome) {
@@ -132,6 +132,7 @@ std::string_view name_of(BranchOutcome outcome) {
                                           "closed",
                                           "returned",
                                           "shrinks to an equilibrium",
+                                          "becomes homoclinic",
                                           "no convergence",
                                           "undefined beyond",
                                           "too much work",

@@ -3,6 +3,7 @@
 #include "base/concatenated.hpp"
 #include "branch/bounds.hpp"
 #include "branch/branch_point_problem.hpp"
+#include "branch/homoclinic_end.hpp"
 #include "branch/neutral_direction.hpp"
 #include "branch/orbit_quantity.hpp"
 #include "branch/sensitivity_condition.hpp"
@@ -10,6 +11,7 @@
 #include "orbit/cut.hpp"
 #include "orbit/newton.hpp"
 #include "orbit/shooting.hpp"
+#include "orbit/solve_homoclinic.hpp"
 
 #include <fmt/format.h>
 
@@ -31,6 +33,7 @@ BranchState::BranchState(const System& system, const Orbit& candidate, const Bra
     const Model& model = system.model();
     settings_.validate(model);
     validate_orbit(model, candidate);
+    require_kept_homoclinic(candidate, settings);
     if (is_outside(settings, candidate.parameters[settings.parameter.place()]))
         throw InputError(fmt::format("the orbit's {} = {} lies outside the branch's bounds",
                                      model.independent_parameters()[settings.parameter.place()],
@@ -283,7 +286,7 @@ bool BranchState::start_in_family(std::span<const double> u) {
 bool BranchState::pieces_need_renewal() {
     const OrbitEquations& equations = problem_->equations();
     const OrbitLayout& layout = equations.layout();
-    if (equations.contacts_need_renewal(problem_->evaluation()))
+    if (equations.contacts_need_renewal(problem_->evaluation()) || distances_need_renewal())
         return true;
     for (std::size_t k = 0; k < layout.pieces(); ++k) {
         const OrbitEvaluation& at = problem_->evaluation();
@@ -324,7 +327,19 @@ OrbitDirection BranchState::across_cuts(const Orbit& orbit, OrbitDirection direc
     return direction;
 }
 
+/// True when a homoclinic orbit should begin and end at other distances from its saddle.
+bool BranchState::distances_need_renewal() const {
+    const HomoclinicEnds* const ends = problem_->equations().homoclinic_ends();
+    return ends && growth_ == 1 && graze::distances_need_renewal(*ends);
+}
+
 void BranchState::renew_pieces(const BranchPoint& from) {
+    if (distances_need_renewal()) {
+        const auto other = at_suitable_distances(*this, from.solution.orbit, from.tangent);
+        if (!other || !restart(*other, from.tangent, from.arclength))
+            growth_ *= 10; // keep the old ones for some time
+        return;
+    }
     const bool grown = pieces_need_renewal();
     const std::size_t pieces = problem_->equations().layout().pieces();
     const bool renewed = restart(from.solution.orbit, across_cuts(from.solution.orbit, from.tangent), from.arclength);

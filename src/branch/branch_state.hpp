@@ -106,6 +106,7 @@ private:
     OrbitDirection across_cuts(const Orbit& orbit, OrbitDirection direction) const;
     bool restart(const Orbit& orbit, const OrbitDirection& direction, double arclength);
     bool make_problem(const Orbit& orbit);
+    bool distances_need_renewal() const;
 
     BranchSettings settings_;
     Simulation simulation_;

@@ -57,6 +57,8 @@ bool equilibrium_satisfies(const SpecialPoint& point, PointType type) {
 }
 
 bool satisfies(const SpecialPoint& point, PointType type) {
+    if (is_homoclinic(point.solution.orbit.signature))
+        return type == PointType::homoclinic;
     if (point.type == type)
         return true;
     if (is_rest(point.solution.orbit.signature))
@@ -88,15 +90,20 @@ std::string quoted(const std::vector<PointType>& types) {
 } // namespace
 
 std::string multipliers_in_words(const SpecialPoint& point) {
-    const bool rests = is_rest(point.solution.orbit.signature);
-    const auto& all = rests ? point.solution.eigenvalues : multipliers_followed(point.solution);
+    const bool homoclinic = is_homoclinic(point.solution.orbit.signature),
+               rests = is_rest(point.solution.orbit.signature);
+    const auto& all = rests || homoclinic ? point.solution.eigenvalues : multipliers_followed(point.solution);
     if (all.empty())
         return "its multipliers are not defined, as where a contact has no speed";
     std::vector<std::string> texts;
     for (const std::complex<double> one : all)
         texts.push_back(one.imag() == 0 ? fmt::format("{:.6g}", one.real())
                                         : fmt::format("{:.6g}{:+.6g}i", one.real(), one.imag()));
-    return fmt::format("its {} are {}", rests ? "eigenvalues" : "multipliers", fmt::join(texts, ", "));
+    return fmt::format("{} are {}",
+                       homoclinic ? "the eigenvalues of its saddle"
+                       : rests    ? "its eigenvalues"
+                                  : "its multipliers",
+                       fmt::join(texts, ", "));
 }
 
 std::vector<PointType> curves_at(const SpecialPoint& point) {

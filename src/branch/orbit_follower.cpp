@@ -3,6 +3,7 @@
 #include "branch/bounds.hpp"
 #include "branch/chatter_end.hpp"
 #include "branch/first_step.hpp"
+#include "branch/homoclinic_end.hpp"
 #include "branch/other_branch.hpp"
 #include "branch/point_locator.hpp"
 #include "branch/point_rules.hpp"
@@ -82,7 +83,7 @@ public:
             return end(BranchOutcome::steps, "");
         if (shrinking_.end())
             return end_at_equilibrium();
-        if (ChatterEnd::is_at_onset(here_.point.solution.orbit) && end_of_chatter())
+        if ((ChatterEnd::is_at_onset(here_.point.solution.orbit) && end_of_chatter()) || end_at_homoclinic())
             return true;
         if (state_.pieces_need_renewal() ||
             cuts_are_oblique(state_.problem().equations(), state_.problem().evaluation())) {
@@ -209,6 +210,18 @@ private:
         found_[0].bracket = std::minmax(here_.point.parameter, found_[0].parameter);
         found_[0].step = ++here_.point.step;
         finish_at(0, BranchOutcome::shrunk, "");
+        return true;
+    }
+    /// Ends the branch in the homoclinic orbit that its orbits approach. @return false if they approach none
+    bool end_at_homoclinic() {
+        auto point = state_.problem().evaluate(state_.continuation().point().u)
+                         ? homoclinic_end_.find(state_, here_.point)
+                         : std::nullopt;
+        if (!point)
+            return false;
+        found_ = {std::move(*point)};
+        found_[0].step = ++here_.point.step;
+        finish_at(0, BranchOutcome::homoclinic, "");
         return true;
     }
     /// Makes a step. If it ends on a branch of simpler orbits (half the period, or symmetric), it has passed the
@@ -422,6 +435,7 @@ private:
     bool starts_simpler_ = false; ///< the first orbit is a repeated orbit, or symmetric but not given as a half orbit
     SimplerEnd simpler_end_;
     ChatterEnd chatter_end_;
+    HomoclinicEnd homoclinic_end_;
     int attempts_ = 0; ///< number of repetitions of the current step
 };
 

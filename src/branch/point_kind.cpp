@@ -3,6 +3,7 @@
 #include "branch/bounds.hpp"
 #include "branch/contact_points.hpp"
 #include "branch/cycle_at_hopf.hpp"
+#include "branch/homoclinic_end.hpp"
 #include "branch/multiplier_points.hpp"
 #include "branch/parameter_points.hpp"
 #include "graze/base/input_error.hpp"
@@ -134,6 +135,8 @@ constexpr std::array table{
     PointRule{.kind = kind(PointType::zero_hopf, "ZH", "zero-Hopf point", may_stop, 15)},
     PointRule{.kind = kind(PointType::double_hopf, "HH", "double Hopf point", may_stop, 15)},
     PointRule{.kind = kind(PointType::generalised_hopf, "GH", "generalised Hopf point", may_stop, 11)},
+    PointRule{.kind = kind(PointType::homoclinic, "HC", "homoclinic orbit", changes | may_be_kept, 3),
+              .condition = condition_of_homoclinic},
     PointRule{.kind = kind(PointType::extremum, "EX", "extremum", may_stop, 1),
               .test = test_extremum,
               .confirm = confirm_extremum},
@@ -252,10 +255,18 @@ std::optional<OrbitMinimum> nearest_touch(const Certificate& certificate, std::s
 }
 
 std::vector<BranchTest> branch_tests(const TestedPoint& point) {
+    // A homoclinic orbit has no multipliers, but contacts that may change, and quantities with bounds and extrema.
+    const bool homoclinic = point.equations.homoclinic_ends() != nullptr;
+    const auto applies = [homoclinic](const PointKind& kind) {
+        return !homoclinic || kind.limits || kind.type == PointType::extremum || kind.type == PointType::bound ||
+               kind.type == PointType::crossing;
+    };
     std::vector<BranchTest> tests;
     for (const PointRule& rule : table)
-        if (rule.test)
+        if (rule.test && applies(rule.kind))
             rule.test(point, tests);
+    if (homoclinic) // of which the period is infinite
+        std::erase_if(tests, [](const BranchTest& one) { return one.type == PointType::extremum && !one.parameter; });
     return tests;
 }
 

@@ -30,7 +30,7 @@ struct UncutOrbit {
     OrbitDirection direction;
 };
 /// Removes the sections of an orbit. @return empty where that is impossible, as for a half orbit with contacts that a
-/// section ends
+/// section ends, and for homoclinic orbits
 std::optional<UncutOrbit> without_sections(const Model& model, const Orbit& orbit, const OrbitDirection& direction);
 
 /// Divides an orbit without contacts into segments between passages of one of the model's sections: a phase section if

@@ -352,6 +352,10 @@ std::optional<OrbitSolution> orbit_with_signature(const System& system, const Si
     constexpr double forever = 1e300;
     options.validate();
     validate_signature(model, signature);
+    if (is_homoclinic(signature))
+        throw InputError(
+            "a homoclinic orbit takes an infinite time: no motion from the initial state has its signature",
+            "follow periodic orbits up to the point HC in which their branch ends");
     const Simulation simulated(system, probes_of(model, signature), {}, simulation);
     SignatureSearch follower(system, signature, options, simulated, search);
     Trajectory trajectory(simulated, model.parameter_values(), borrowed(follower));

@@ -44,6 +44,8 @@ OrbitEquations::OrbitEquations(const Simulation& simulation, const Orbit& orbit,
         if (segment.end == SegmentEnd::chatter)
             accumulations_.back().emplace(simulation.system(), segment.index, ends_.free());
     }
+    if (is_homoclinic(orbit.signature))
+        homoclinic_.emplace(simulation.system(), modes_.back(), ends_.free());
     flow_.set_parameters(parameters_);
     follow_contacts(orbit);
 }
@@ -75,9 +77,33 @@ void OrbitEquations::lay_out(const Orbit& orbit, const std::vector<std::size_t>&
     const Eigen::VectorXd unknowns = unknowns_of(orbit);
     set_scales(unknowns);
     ends_.lay_cuts(orbit, scales_.head(index(layout_.states())));
+    if (homoclinic_)
+        keep_distances(unknowns);
     OrbitEvaluation at = evaluation();
     if (layout_.free() > 0 && evaluate(unknowns, at)) // the evaluation has measured the effects of the parameters
         set_scales(unknowns);
+}
+
+/// Keeps the distances from the saddle at which an orbit begins and ends, in units of the extents of the states.
+void OrbitEquations::keep_distances(const Eigen::VectorXd& unknowns) {
+    constexpr int parts = 24;
+    const std::size_t n = layout_.states();
+    std::vector<double> end, parameters;
+    set_parameters(unknowns, parameters);
+    StateScales extents(n);
+    extents.begin();
+    for (std::size_t k = 0; k < layout_.pieces(); ++k) {
+        const double* const start = unknowns.data() + layout_.start_of(k);
+        end.assign(start, start + n);
+        extents.note(end);
+        for (int part = 0; part < parts; ++part) {
+            flow_.run(mode_of(k), end, unknowns[index(layout_.duration_of(k))] / parts);
+            extents.note(end);
+        }
+    }
+    const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(index(n), index(n));
+    homoclinic_->keep_distances({unknowns.data(), n}, end, parameters,
+                                vector_of(extents.choose(ends_.periods(), none, none)));
 }
 
 Eigen::VectorXd OrbitEquations::unknowns_of(const Orbit& orbit) {
@@ -225,6 +251,8 @@ void OrbitEquations::set_parameters(const Eigen::VectorXd& unknowns, std::vector
         parameters[free()[f].place()] = unknowns[index(layout_.parameter(f))];
     flow_.set_parameters(parameters);
     ends_.set_parameters(parameters);
+    if (homoclinic_)
+        homoclinic_->set_parameters(parameters);
 }
 
 void OrbitEquations::set_scales(const Eigen::VectorXd& unknowns) {
@@ -281,6 +309,10 @@ bool OrbitEquations::evaluate(const Eigen::VectorXd& unknowns, OrbitEvaluation& 
         return false;
     }
     set_parameters(unknowns, at.parameters);
+    if (homoclinic_ && !homoclinic_->problem().empty()) {
+        at.problem = homoclinic_->problem();
+        return false;
+    }
     at.periods = ends_.periods();
     at.scales = scales_;
     at.pieces.resize(layout_.pieces());
@@ -320,7 +352,15 @@ bool OrbitEquations::evaluate_piece(std::size_t k, const Eigen::VectorXd& unknow
     piece.jump.setZero(n, n + index(layout_.free()));
     piece.jump.leftCols(n).setIdentity();
     piece.after = piece.end;
-    if (!layout_.has_end(k) || ends_.pass(segment, piece, passed_at(k)))
+    if (!layout_.has_end(k))
+        return true;
+    if (homoclinic_ && k + 1 == layout_.pieces()) {
+        const HomoclinicEnds::Condition approach = homoclinic_->approaches(piece.end);
+        piece.condition_value = approach.value;
+        piece.condition = approach.gradient;
+        return std::isfinite(approach.value);
+    }
+    if (ends_.pass(segment, piece, passed_at(k)))
         return true;
     at.problem = fmt::format("the jump after segment {} is not defined", segment + 1);
     return false;
@@ -397,7 +437,7 @@ bool OrbitEquations::contacts_need_renewal(const OrbitEvaluation& at) const {
 
 /// Fills the blocks of the linear system, in scaled unknowns and equations.
 void OrbitEquations::assemble(const Eigen::VectorXd& unknowns, OrbitEvaluation& at) {
-    std::vector<bool> neutral(layout_.states(), true);
+    std::vector<bool> neutral(layout_.states(), !homoclinic_);
     at.effects.setZero(index(layout_.free()));
     for (std::size_t k = 0; k < layout_.pieces(); ++k) {
         CyclicSystem::Block& block = at.system.block(k);
@@ -413,7 +453,10 @@ void OrbitEquations::assemble(const Eigen::VectorXd& unknowns, OrbitEvaluation& 
             block.parameters.row(0).setZero();
             block.right[0] = (fixed_durations_[k] - unknowns[duration]) / scales_[duration];
         }
-        assemble_closure(k, unknowns, at, neutral);
+        if (homoclinic_ && k + 1 == layout_.pieces())
+            assemble_ends_at_saddle(unknowns, at);
+        else
+            assemble_closure(k, unknowns, at, neutral);
     }
     // A state whose sign is reversed an odd number of times must be zero: it is not neutral.
     for (std::size_t i = 0; i < layout_.states(); ++i)
@@ -541,6 +584,29 @@ void OrbitEquations::assemble_closure(std::size_t k, const Eigen::VectorXd& unkn
     block.own.block(1, n, n, 1) = -units.cwiseProduct(by_time) * scales_[index(layout_.duration_of(k))];
     block.parameters.bottomRows(n) = -(units.asDiagonal() * by_parameters * scales_.tail(q).asDiagonal());
     block.next.bottomRows(n).setIdentity();
+}
+
+/// Fills the rows that take the place of continuity after the last piece of a homoclinic orbit: the coordinates that
+/// vanish at its ends.
+void OrbitEquations::assemble_ends_at_saddle(const Eigen::VectorXd& unknowns, OrbitEvaluation& at) const {
+    const auto n = index(layout_.states()), q = index(layout_.free());
+    const OrbitEvaluation::Piece& piece = at.pieces.back();
+    CyclicSystem::Block& block = at.system.block(layout_.pieces() - 1);
+    const std::span<const double> begin(unknowns.data(), layout_.states());
+    const HomoclinicEnds::Projections ends = homoclinic_->projections(begin, piece.end);
+    const Eigen::VectorXd state_scales = scales_.head(n);
+    const Eigen::MatrixXd by_parameters = ends.by_parameters + ends.by_end * piece.flow.rightCols(q);
+    at.effects = at.effects.cwiseMax(by_parameters.cwiseAbs().colwise().maxCoeff().transpose());
+    block.own.block(1, 0, n, n) = ends.by_end * piece.flow.leftCols(n) * state_scales.asDiagonal();
+    block.own.block(1, n, n, 1) =
+        ends.by_end * piece.by_time * scales_[index(layout_.duration_of(layout_.pieces() - 1))];
+    block.parameters.bottomRows(n) = by_parameters * scales_.tail(q).asDiagonal();
+    block.next.bottomRows(n) = ends.by_begin * state_scales.asDiagonal();
+    block.right.tail(n) = -ends.values;
+    const HomoclinicEnds::Condition departure = homoclinic_->departs(begin);
+    at.departure = departure.value;
+    at.departure_by = departure.gradient;
+    at.eigenvalues = homoclinic_->saddle().eigenvalues();
 }
 
 /// Subtracts from the continuity row of a state in the last piece that of the drifting state with which it is
@@ -723,6 +789,14 @@ Eigen::RowVectorXd OrbitEquations::row_at_end(const OrbitEvaluation& at, std::si
     row.segment(index(layout_.start_of(k)), n) = by_state * piece.flow.leftCols(n);
     row[index(layout_.duration_of(k))] = by_state.dot(piece.by_time);
     row.tail(q) = by_state * piece.flow.rightCols(q) + gradient.tail(q).transpose();
+    return row;
+}
+
+Eigen::RowVectorXd OrbitEquations::departure_row(const OrbitEvaluation& at) const {
+    const auto n = index(layout_.states()), q = index(layout_.free());
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(index(layout_.unknowns()));
+    row.head(n) = at.departure_by.head(n).transpose();
+    row.tail(q) = at.departure_by.tail(q).transpose();
     return row;
 }
 

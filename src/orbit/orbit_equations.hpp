@@ -1,6 +1,7 @@
 #pragma once
 
 #include "orbit/accumulation.hpp"
+#include "orbit/homoclinic_ends.hpp"
 #include "orbit/orbit_scales.hpp"
 #include "orbit/segment_ends.hpp"
 
@@ -22,6 +23,10 @@ inline constexpr double least_rate = 1e-11;
 /// chatter sequence consists of a piece for each contact that is resolved, and a last one for all others. Drifting
 /// states (periodic up to translation) and neutral states (returned unchanged, as a frame at rest) are held at their
 /// first values instead of being closed.
+///
+/// A homoclinic orbit, whose last segment approaches a saddle, does not close: the equations demand that it begins in
+/// the linear unstable space of the saddle and ends in the stable one, at a given distance. It exists for one value of
+/// a free parameter, which the distance at which it begins determines as a border equation (`departure_row`).
 class OrbitEquations {
 public:
     virtual ~OrbitEquations() = default;
@@ -81,7 +86,7 @@ public:
     /// scaled. @return false when the matrix is singular
     bool respond(const OrbitEvaluation& at, const Eigen::VectorXd& change, Eigen::VectorXd& step) const;
     /// True when `chord` is available.
-    bool has_chords() const { return layout_.inner() == 0; }
+    bool has_chords() const { return layout_.inner() == 0 && !homoclinic_; }
     /// True when an evaluation with derivatives costs much more than the flow alone, as with many states and
     /// parameters.
     bool derivatives_are_expensive() const { return layout_.states() + layout_.free() >= many_inputs; }
@@ -100,6 +105,10 @@ public:
     /// Returns the derivatives, with respect to all unknowns, of a function of states and free parameters at the end of
     /// a piece, before the jump. @param gradient of the function: states + free
     Eigen::RowVectorXd row_at_end(const OrbitEvaluation& at, std::size_t piece, const Eigen::VectorXd& gradient) const;
+    /// Returns the derivatives of OrbitEvaluation::departure with respect to all unknowns.
+    Eigen::RowVectorXd departure_row(const OrbitEvaluation& at) const;
+    /// The ends of a homoclinic orbit; null for others.
+    const HomoclinicEnds* homoclinic_ends() const { return homoclinic_ ? &*homoclinic_ : nullptr; }
     /// Returns the rate of the end condition of a segment along the flow at its end: minus the approach speed.
     double rate_at_end(const OrbitEvaluation& at, std::size_t segment) const;
     /// Returns the typical size of this rate: the change of the end condition over the scales of the states, divided by
@@ -154,6 +163,7 @@ private:
     SegmentEnds::Passed passed_at(std::size_t piece) const;
     double duration_of_segment(const Eigen::VectorXd& unknowns, std::size_t segment) const;
     void set_contacts(const Orbit& orbit, std::size_t segment, Eigen::VectorXd& unknowns);
+    void keep_distances(const Eigen::VectorXd& unknowns);
     bool accumulate(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at);
     bool evaluate_piece(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at);
     void assemble(const Eigen::VectorXd& unknowns, OrbitEvaluation& at);
@@ -163,6 +173,7 @@ private:
     void assemble_accumulation(std::size_t k, OrbitEvaluation& at) const;
     void assemble_closure(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at,
                           std::vector<bool>& neutral) const;
+    void assemble_ends_at_saddle(const Eigen::VectorXd& unknowns, OrbitEvaluation& at) const;
     void drop_accidentally_neutral(const OrbitEvaluation& at, std::vector<bool>& neutral);
     void close_with(std::size_t state, std::size_t drifting, OrbitEvaluation& at) const;
     void pin(const Eigen::VectorXd& unknowns, const std::vector<bool>& neutral, OrbitEvaluation& at) const;
@@ -174,6 +185,7 @@ private:
     Simulation simulation_;
     SegmentEnds ends_;
     std::vector<std::size_t> modes_; ///< of the segments
+    std::optional<HomoclinicEnds> homoclinic_;
     ModeFlow flow_;
     OrbitLayout layout_;
     OrbitScales orbit_scales_;

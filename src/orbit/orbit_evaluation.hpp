@@ -3,6 +3,7 @@
 #include "graze/flow/watched_series.hpp"
 #include "orbit/cyclic_system.hpp"
 
+#include <complex>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -95,9 +96,14 @@ struct OrbitEvaluation {
     std::vector<double> parameters, periods;
     std::vector<Piece> pieces;
     std::vector<std::size_t> active; ///< states that are neither drifting nor neutral
-    Eigen::VectorXd effects;         ///< largest derivative of the scaled equations with respect to each free parameter
-    CyclicSystem system;             ///< the linearised equations, scaled
-    double residual = 0;             ///< largest scaled residual
+    /// Of a homoclinic orbit: the excess of the distance from its saddle at which it begins, with the gradient with
+    /// respect to its first state and the free parameters; and the eigenvalues of the saddle.
+    double departure = 0;
+    Eigen::VectorXd departure_by;
+    std::vector<std::complex<double>> eigenvalues;
+    Eigen::VectorXd effects; ///< largest derivative of the scaled equations with respect to each free parameter
+    CyclicSystem system;     ///< the linearised equations, scaled
+    double residual = 0;     ///< largest scaled residual
     std::string problem;
     bool took_too_long = false; ///< a segment takes too many steps: callers should not retry often
 

@@ -19,7 +19,7 @@ SegmentEnds::SegmentEnds(const System& system, const Orbit& orbit, std::vector<P
             end.value = &system_.event(transition->event);
         } else if (segment.end == SegmentEnd::cut) {
             end.normal = end.through = Eigen::VectorXd::Zero(index(n_)); // until lay_cuts
-        } else {
+        } else if (segment.end == SegmentEnd::section) {
             const Section& section = system_.model().sections[segment.index];
             end.cyclic = section.state.has_value();
             end.state = section.state.value_or(0);
@@ -130,7 +130,7 @@ bool SegmentEnds::pass(std::size_t k, OrbitEvaluation::Piece& piece, Passed pass
     }
     for (const System::CompiledJump* const jump : jumps_of(k, passed))
         apply(*jump, piece);
-    if (!end.value)
+    if (end.normal.size() > 0)
         pass_cut(end, piece);
     return std::ranges::all_of(piece.after, [](double value) { return std::isfinite(value); });
 }
@@ -148,7 +148,7 @@ bool SegmentEnds::pass(std::size_t k, std::vector<double>& state, double& condit
         if (!jump->identity)
             jump->map.evaluate(inputs_, state, work_);
     }
-    if (!end.value)
+    if (end.normal.size() > 0)
         condition = off_cut(end, state, nullptr);
     return std::ranges::all_of(state, [](double value) { return std::isfinite(value); });
 }

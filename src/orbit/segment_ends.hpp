@@ -50,12 +50,13 @@ public:
 
 private:
     struct EndFunction {
-        /// Value and gradient of the condition, owned by the system; null for a cut. Of a chatter sequence it is that
-        /// of its contacts.
+        /// Value and gradient of the condition, owned by the system; null for a cut and for the approach to a saddle,
+        /// where HomoclinicEnds has the condition. Of a chatter sequence it is that of its contacts.
         const Function* value = nullptr;
         bool cyclic = false; ///< phase section: the condition holds up to whole periods of `state`
         std::size_t state = 0;
-        Eigen::VectorXd normal, through; ///< plane of a cut, in the state space of the next segment
+        /// Plane of a cut, in the state space of the next segment; empty for other ends.
+        Eigen::VectorXd normal, through;
     };
     /// The condition that is met; null: there is none, or it is a plane.
     const Function* condition_of(std::size_t segment, Passed passed) const;

@@ -32,6 +32,15 @@ bool is_rest(const Signature& signature) {
     return signature.size() == 1 && signature.front().end == SegmentEnd::rest;
 }
 
+const std::string& saddle_name() {
+    static const std::string name = "saddle";
+    return name;
+}
+
+bool is_homoclinic(const Signature& signature) {
+    return !signature.empty() && signature.back().end == SegmentEnd::saddle;
+}
+
 const std::string& chatter_mark() {
     static const std::string mark = "*";
     return mark;
@@ -159,8 +168,8 @@ std::vector<Segment> candidates(const Model& model, const std::string& name) {
         for (std::size_t m = 0; m < model.modes.size(); ++m)
             if (!mode || m == *mode)
                 result.push_back({m, SegmentEnd::section, *section});
-    for (const auto& [special, end] :
-         {std::pair(cut_name(), SegmentEnd::cut), std::pair(rest_name(), SegmentEnd::rest)})
+    for (const auto& [special, end] : {std::pair(cut_name(), SegmentEnd::cut), std::pair(rest_name(), SegmentEnd::rest),
+                                       std::pair(saddle_name(), SegmentEnd::saddle)})
         for (std::size_t m = 0; rest == special && m < model.modes.size(); ++m)
             if (!mode || m == *mode)
                 result.push_back({m, end, 0});
@@ -284,6 +293,8 @@ std::string end_name(const Model& model, const Segment& segment) {
         return cut_name();
     if (segment.end == SegmentEnd::rest)
         return rest_name();
+    if (segment.end == SegmentEnd::saddle)
+        return saddle_name();
     if (const Transition* const transition = transition_of(model, segment))
         return segment.end == SegmentEnd::chatter ? transition->label + chatter_mark() : transition->label;
     require_index(segment.index, model.sections.size(), "section");
@@ -325,6 +336,11 @@ Signature parse_signature(const Model& model, std::string_view text, const Place
     const auto signature = choose(model, places);
     if (signature && signature->size() > 1 && signature->front().end == SegmentEnd::rest)
         reader.fail("an equilibrium is the only segment of its signature", "write it once", names.back().column);
+    if (signature)
+        for (std::size_t k = 0; k + 1 < signature->size(); ++k)
+            if ((*signature)[k].end == SegmentEnd::saddle)
+                reader.fail("a homoclinic orbit ends where it approaches its saddle",
+                            fmt::format("write '{}' once, at the end", saddle_name()), names[k].column);
     if (!signature)
         reader.fail(why_no_cycle(model, names, places), "add the segments between them, or leave some out",
                     names.front().column);
@@ -364,11 +380,14 @@ void validate_signature(const Model& model, const Signature& signature, const Pl
     for (const Segment& segment : signature) {
         const bool contact = ends_by_transition(segment);
         if (!contact && segment.end != SegmentEnd::section && segment.end != SegmentEnd::cut &&
-            segment.end != SegmentEnd::rest)
+            segment.end != SegmentEnd::rest && segment.end != SegmentEnd::saddle)
             throw InputError(place, "a segment has no end", "let an event or a section end it");
         if (segment.end == SegmentEnd::rest && (signature.size() > 1 || symmetry))
             throw InputError(place, "an equilibrium is the only segment of its signature, without a symmetry",
                              "give it alone");
+        if (segment.end == SegmentEnd::saddle && (&segment != &signature.back() || symmetry))
+            throw InputError(place, "a homoclinic orbit ends where it approaches its saddle, without a symmetry",
+                             "let that be its last segment");
         const std::size_t ends = contact                              ? model.transitions.size()
                                  : segment.end == SegmentEnd::section ? model.sections.size()
                                                                       : 1;

@@ -198,7 +198,10 @@ OrbitOutcome solve_equations(OrbitEquations& equations, Eigen::VectorXd& unknown
 void describe_orbit(OrbitEquations& equations, const OrbitEvaluation& at, OrbitSolution& solution,
                     const std::optional<HeldLimit>& held) {
     solution.residual = at.residual;
-    solution.multipliers = floquet_multipliers(equations, at);
+    if (equations.homoclinic_ends()) // there is no section map
+        solution.eigenvalues = at.eigenvalues;
+    else
+        solution.multipliers = floquet_multipliers(equations, at);
     if (equations.symmetry()) {
         solution.half_multipliers = solution.multipliers;
         for (auto& multiplier : solution.multipliers)
@@ -274,6 +277,10 @@ OrbitSolution solve_orbit(const System& system, const Orbit& candidate, const Or
     validate_orbit(model, candidate);
     if (is_rest(candidate.signature))
         return solve_equilibrium(system, candidate, options);
+    if (is_homoclinic(candidate.signature))
+        throw InputError(
+            "a homoclinic orbit exists at one value of a parameter only, and cannot be solved for at others",
+            "follow it in two parameters: kind = \"curve\"");
     const Simulation simulation(system, {}, {}, integration(options.tolerance));
     Shooting shooting(simulation, candidate, {});
     Eigen::VectorXd unknowns = shooting.unknowns_of(candidate);

@@ -166,6 +166,8 @@ private:
         if (type_ == PointType::grazing)
             add("ladder", "Ladder of grazings", "the next grazings, each with one contact more, up to chatter", 1);
         const char* const what = rests_ ? "equilibrium" : "orbit";
+        if (type_ == PointType::homoclinic) // it exists at one value of a parameter only
+            return;
         add("follow", "Follow",
             has_own_parameter() ? "the same branch along this parameter, with other bounds if wanted"
                                 : fmt::format("follow this {} as a parameter changes", what),
@@ -181,6 +183,8 @@ private:
 
     /// Curves that meet here, of points of other types.
     void find_of_curve() {
+        if (is_homoclinic(origin_.orbit->point.solution.orbit.signature))
+            return;
         const auto curve = [&](const char* of, const char* words) {
             add(fmt::format("curve-{}", of), fmt::format("Curve of {}", words),
                 fmt::format("the curve of {} that meets this one here", words), 2, of);

@@ -53,6 +53,10 @@ Segment segment_named(const Model& model, const std::string& mode, const std::st
         segment.end = SegmentEnd::rest;
         return segment;
     }
+    if (end == saddle_name()) {
+        segment.end = SegmentEnd::saddle;
+        return segment;
+    }
     segment.end = SegmentEnd::section;
     const auto section = model.find_section(end);
     if (!section)

@@ -112,7 +112,8 @@ std::string multipliers_text(const std::vector<std::complex<double>>& multiplier
 }
 
 std::string multipliers_text(const OrbitSolution& solution, int digits) {
-    if (solution.outcome != OrbitOutcome::converged || is_rest(solution.orbit.signature))
+    if (solution.outcome != OrbitOutcome::converged || is_rest(solution.orbit.signature) ||
+        is_homoclinic(solution.orbit.signature))
         return "";
     return solution.multipliers.empty() ? "undefined" : multipliers_text(solution.multipliers, digits);
 }

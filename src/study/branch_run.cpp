@@ -184,6 +184,10 @@ std::vector<BranchPart> parts_from_orbit(const StudyRun& run, const System& syst
                          "start from a grazing of the ladder, or follow the onset with kind = \"curve\"");
     if (run.kind == RunKind::curve)
         return parts_of_curve(run, system, point);
+    if (is_homoclinic(point.solution.orbit.signature))
+        throw InputError(start.place,
+                         "a homoclinic orbit exists at one value of a parameter only: no branch begins there",
+                         "follow it in two parameters: kind = \"curve\", free = { PARAMETER = [..] }");
     const bool same_parameter = (parent.kind == RunKind::follow || parent.kind == RunKind::ladder) &&
                                 parent.branch().settings.parameter == run.branch().settings.parameter &&
                                 parent.branch().settings.family == run.branch().settings.family;

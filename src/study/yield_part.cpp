@@ -25,7 +25,7 @@ void describe_point(Bytes& bytes, Point& point) {
     auto& orbit = point.solution.orbit;
     bytes.list(orbit.signature, [](Bytes& item, auto& segment) {
         item(segment.mode);
-        item.choice(segment.end, SegmentEnd::chatter);
+        item.choice(segment.end, SegmentEnd::saddle);
         item(segment.index);
     });
     bytes(orbit.parameters, orbit.starts, orbit.durations, orbit.symmetry);

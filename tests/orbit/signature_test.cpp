@@ -32,6 +32,22 @@ TEST(Signature, RepetitionsAndSeparatorsAreNormalised) {
     EXPECT_EQ(rewritten("impact-oscillator-two-stops", "(free:right free:left)^2"), "(free:right free:left)^2");
 }
 
+TEST(Signature, HomoclinicOrbitsEndAtTheirSaddle) {
+    EXPECT_EQ(rewritten("impact-oscillator", "impact^2 saddle"), "impact^2 free:saddle");
+    EXPECT_EQ(rewritten("impact-oscillator", "~ saddle"), "free:~ free:saddle");
+    const Model model = load_model("impact-oscillator");
+    const Signature signature = parse_signature(model, "impact saddle");
+    EXPECT_TRUE(is_homoclinic(signature));
+    EXPECT_FALSE(is_homoclinic(parse_signature(model, "impact")));
+    const auto message = [&](const char* text) { return testing::message_of([&] { parse_signature(model, text); }); };
+    EXPECT_NE(message("saddle impact").find("write 'saddle' once, at the end"), std::string::npos)
+        << message("saddle impact");
+    EXPECT_NE(testing::message_of([&] {
+                  validate_signature(model, {signature[1], signature[0]});
+              }).find("let that be its last segment"),
+              std::string::npos);
+}
+
 TEST(Signature, ModesFollowFromTheGraph) {
     const Model model = load_model("impact-microactuator");
     const Signature signature = parse_signature(model, "J1 J8");

@@ -97,6 +97,7 @@ enum class BranchOutcome {
     closed,         ///< the branch has returned to its first point
     returned,       ///< the branch has met a branch of simpler orbits: of half the period, or symmetric
     shrunk,         ///< the orbits shrink to an equilibrium
+    homoclinic,     ///< the period grows without bound: the orbits approach a homoclinic one
     no_convergence, ///< the step has become too small
     undefined,      ///< the model is not defined beyond the last point
     too_long,       ///< orbits take too many integration steps, as where the period diverges

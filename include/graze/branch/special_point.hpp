@@ -47,6 +47,7 @@ enum class PointType {
     zero_hopf,            ///< ZH: on such a curve: one eigenvalue is 0, two are imaginary
     double_hopf,          ///< HH: on a curve of Hopf points: four eigenvalues are imaginary
     generalised_hopf,     ///< GH: on a curve of Hopf points: criticality changes (Bautin)
+    homoclinic,           ///< HC: the period grows without bound: the orbit becomes homoclinic to a saddle
     extremum,             ///< EX: extremum of the period, where that is free; or of a parameter, on a curve
     bound,                ///< BD: a given bound is reached
     crossing,             ///< UZ: a monitor takes a requested value

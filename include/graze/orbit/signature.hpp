@@ -17,10 +17,11 @@ enum class SegmentEnd {
     cut,     ///< the motion passes a plane laid across it by the program; state and mode do not change
     chatter, ///< infinitely many contacts of a transition accumulate, and its `chatter` is made
     rest,    ///< nothing ends it: the state is an equilibrium of the mode. The only segment of its signature
+    saddle,  ///< the motion approaches a saddle, which it left with the first segment: a homoclinic orbit
 };
 
-/// One piece of an orbit: the motion in a mode, up to an event or section; or rest in an equilibrium. It is smooth,
-/// unless it is a complete chatter sequence: then it has infinitely many contacts.
+/// One piece of an orbit: the motion in a mode, up to an event or section, or to a saddle; or rest in an equilibrium.
+/// It is smooth, unless it is a complete chatter sequence: then it has infinitely many contacts.
 struct Segment {
     std::size_t mode = 0;
     SegmentEnd end = SegmentEnd::event;
@@ -42,6 +43,10 @@ const std::string& rest_name();
 Signature signature_of_rest(std::size_t mode);
 /// True for the signature of an equilibrium.
 bool is_rest(const Signature& signature);
+/// The name of the end of a homoclinic orbit in signatures: "saddle".
+const std::string& saddle_name();
+/// True for the signature of a homoclinic orbit: its last segment approaches a saddle.
+bool is_homoclinic(const Signature& signature);
 /// What follows the label of a transition whose contacts accumulate, in signatures: "*", as in "impact* release".
 const std::string& chatter_mark();
 /// True when a transition ends a segment, or its contacts accumulate there, rather than that it passes a section or
@@ -52,14 +57,15 @@ inline bool ends_by_transition(const Segment& segment) {
 /// Returns the transition that ends a segment, or whose contacts accumulate there; null for sections and cuts.
 const Transition* transition_of(const Model& model, const Segment& segment);
 /// Returns the name of a segment's end in signatures: the label of the transition (with "*" where its contacts
-/// accumulate), the name of the section, "~" for a cut, or
-/// "equilibrium" for rest.
+/// accumulate), the name of the section, "~" for a cut, "saddle"
+/// for the approach to one, or "equilibrium" for rest.
 std::string end_name(const Model& model, const Segment& segment);
 
 /// Reads signatures such as "J1 J8", "{J1,J8}^2", "impact^4" or "(impact release)^2 impact": labels of transitions and
 /// names of sections, repeated by ^; braces and parentheses group, commas separate. "~" is a cut, "equilibrium" a state
-/// at rest, "impact*" a complete chatter sequence: all contacts of this transition, up to their accumulation. Modes are
-/// deduced from the model's graph; where they are ambiguous, write "mode:label".
+/// at rest, "impact*" a complete chatter sequence: all contacts of this transition, up to their accumulation. "impact
+/// saddle" is a homoclinic orbit with one contact. Modes are deduced from the model's graph; where they are ambiguous,
+/// write "mode:label".
 /// @throws InputError for names that the model does not have and sequences that its graph does not allow
 Signature parse_signature(const Model& model, std::string_view text, const Place& place = {});
 /// Returns text that parse_signature reads back, with repetitions abbreviated: "(J1 J8)^2".

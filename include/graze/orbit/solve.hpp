@@ -50,7 +50,8 @@ struct OrbitSolution {
     /// Floquet multipliers of the section map of the whole orbit, largest first; empty where an event is reached with
     /// zero speed.
     std::vector<std::complex<double>> multipliers;
-    /// Of an equilibrium: the eigenvalues of the linearised field, largest real part first.
+    /// Of an equilibrium, or of the saddle of a homoclinic orbit: the eigenvalues of the linearised field, largest real
+    /// part first.
     std::vector<std::complex<double>> eigenvalues;
     std::vector<std::complex<double>> half_multipliers; ///< multipliers of the half map of a symmetric orbit given by
                                                         ///< its half; `multipliers` are their squares
@@ -71,7 +72,8 @@ std::size_t unstable_directions(const OrbitSolution& solution);
 /// Finds a periodic orbit near a candidate by damped Newton's method on multiple shooting with exact derivatives. Where
 /// a family of orbits exists at the same parameters, as in conservative models, the nearest member is found. A
 /// candidate with the signature of an equilibrium leads to an equilibrium of its mode: an orbit of duration 0.
-/// @throws InputError when the candidate does not fit the model or the options are out of range
+/// @throws InputError for a homoclinic orbit, which exists at one value of a parameter only, and when the candidate
+/// does not fit the model or the options are out of range
 OrbitSolution solve_orbit(const System& system, const Orbit& candidate, const OrbitOptions& options = {});
 
 /// Finds the periodic orbit on which simulation settles at the model's parameters and initial state, and refines it by
@@ -102,7 +104,7 @@ struct SignatureSearchOptions {
 /// orbit is its own image under a symmetry of the model.
 /// @return a solution that is not converged, whose orbit is the first guess, when no piece led to an orbit; empty when
 /// interrupted
-/// @throws InputError when the motion has no such piece, or all orbits found are inadmissible
+/// @throws InputError when the motion has no such piece, as for homoclinic orbits, or all orbits found are inadmissible
 std::optional<OrbitSolution> orbit_with_signature(const System& system, const Signature& signature,
                                                   const OrbitOptions& options = {},
                                                   const SimulationOptions& simulation = {},
