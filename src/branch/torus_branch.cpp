@@ -64,6 +64,13 @@ void require_torus_point(const SpecialPoint& point) {
         throw InputError("tori of motions with complete chatter are not followed", remedy);
 }
 
+void require_extremes(const std::vector<Monitor>& monitors) {
+    for (const Monitor& one : monitors)
+        if (one.kind != Monitor::Kind::maximum && one.kind != Monitor::Kind::minimum)
+            throw InputError(fmt::format("monitor '{}' has no single value on a torus", one.name),
+                             "choose a maximum or a minimum");
+}
+
 /// The multiplier of a torus point with a positive imaginary part, and its vector, in scaled active states.
 struct TurningPair {
     std::complex<double> multiplier;
@@ -113,12 +120,15 @@ public:
         require_torus_point(point);
         resolution.validate();
         settings.validate(system.model());
+        require_extremes(settings.monitors);
         settings_.continuation.accuracy = std::max(settings.continuation.accuracy, settings.orbit.accuracy);
         const double at = point.solution.orbit.parameters[settings.parameter.place()];
         if (is_beyond(at))
             throw InputError(fmt::format("the torus point lies at {:.10g}, outside the bounds", at),
                              "widen the bounds of the parameter");
         set_up(point.solution.orbit);
+        monitors_ = std::make_unique<OrbitMonitors>(system, point.solution.orbit.signature, settings.monitors,
+                                                    settings.orbit.tolerance);
     }
 
     bool start();
@@ -153,6 +163,7 @@ private:
     BranchSettings settings_;
     TorusResolution resolution_;
     TorusSetting setting_;
+    std::unique_ptr<OrbitMonitors> monitors_;
     std::shared_ptr<TorusProblem> problem_;
     /// Unknowns from which the next step is made, its direction, and the circle to which the phase condition refers.
     std::vector<double> origin_, direction_, reference_;
@@ -242,6 +253,8 @@ TorusPoint TorusBranch::Follower::described(const ContinuationPoint& at) const {
     TorusPoint point;
     point.torus = problem_->torus_of(at.u);
     point.facts = facts_of(*problem_, at.u, simulation_);
+    if (point.facts.admissible)
+        point.monitors = extremes_of(*problem_, at.u, *monitors_);
     point.motion = problem_->images().front().motion;
     point.parameter = at.u[problem_->parameter_place()];
     point.arclength = at.arclength;

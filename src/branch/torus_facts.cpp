@@ -1,6 +1,7 @@
 #include "branch/torus_facts.hpp"
 
 #include "base/special_numbers.hpp"
+#include "branch/circle_minimum.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/shooting.hpp"
 
@@ -18,19 +19,41 @@ Eigen::MatrixXd circle_of(const TorusProblem& problem, std::span<const double> u
     return Eigen::Map<const Eigen::MatrixXd>(u.data(), index(problem.setting().active.size()), index(problem.terms()));
 }
 
+/// The motions from any angle of a torus.
+class TorusAngles {
+public:
+    TorusAngles(const TorusProblem& problem, std::span<const double> u)
+        : problem_(&problem), torus_(problem.torus_of(u)), parameter_(u[problem.parameter_place()]) {}
+
+    const Torus& torus() const { return torus_; }
+    std::optional<SignatureReturn::Image> image_from(double turns) const {
+        const double whole = turns - std::floor(turns);
+        const auto nearest = static_cast<std::size_t>(whole * static_cast<double>(problem_->terms()));
+        const auto& images = problem_->images();
+        return problem_->setting().back->follow(torus_.state_at(turns), parameter_,
+                                                images[nearest % images.size()].motion.durations);
+    }
+    std::optional<Orbit> motion_from(double turns) const {
+        auto image = image_from(turns);
+        return image ? std::optional(std::move(image->motion)) : std::nullopt;
+    }
+
+private:
+    const TorusProblem* problem_;
+    Torus torus_;
+    double parameter_;
+};
+
 /// Returns the largest error, half-way between the angles at which the equations hold, in scaled states.
-double largest_defect(const TorusProblem& problem, std::span<const double> u) {
+double largest_defect(const TorusProblem& problem, const TorusAngles& angles) {
     const TorusSetting& setting = problem.setting();
-    const Torus torus = problem.torus_of(u);
-    const auto count = static_cast<double>(problem.terms());
     double largest = 0;
     for (std::size_t j = 0; j < problem.terms(); ++j) {
-        const double turns = (static_cast<double>(j) + 0.5) / count;
-        const auto image = setting.back->follow(torus.state_at(turns), u[problem.parameter_place()],
-                                                problem.images()[j].motion.durations);
+        const double turns = (static_cast<double>(j) + 0.5) / static_cast<double>(problem.terms());
+        const auto image = angles.image_from(turns);
         if (!image)
             return infinity;
-        const std::vector<double> wanted = torus.state_at(turns + torus.rotation);
+        const std::vector<double> wanted = angles.torus().state_at(turns + angles.torus().rotation);
         for (const std::size_t i : setting.active)
             largest = std::max(largest, std::abs(image->after[i] - wanted[i]) / setting.scales[index(i)]);
     }
@@ -114,94 +137,64 @@ double growth_away(const TorusProblem& problem, std::span<const double> u) {
 /// equations hold and, where an event is nearly touched, from the angle at which its function is least.
 class MotionCheck {
 public:
-    MotionCheck(const TorusProblem& problem, std::span<const double> u, const Simulation& simulation, TorusFacts& facts)
-        : problem_(problem), simulation_(simulation), torus_(problem.torus_of(u)),
-          parameter_(u[problem.parameter_place()]), facts_(facts) {}
+    MotionCheck(const TorusProblem& problem, const TorusAngles& angles, const Simulation& simulation, TorusFacts& facts)
+        : problem_(problem), angles_(angles), simulation_(simulation), facts_(facts) {}
 
     void check() {
-        for (std::size_t j = 0; j < problem_.terms(); ++j)
-            note(static_cast<double>(j) / static_cast<double>(problem_.terms()), problem_.images()[j].motion);
-        if (facts_.admissible)
-            for (const auto& [event, gaps] : gaps_)
-                if (gaps.size() == problem_.terms())
-                    seek_least(event, gaps);
+        constexpr double near = 0.2; // of the function's size: other events are not nearly touched
+        std::map<EventOfSegment, std::vector<double>> gaps;
+        std::map<EventOfSegment, double> sizes;
+        for (const SignatureReturn::Image& image : problem_.images())
+            for (const auto& [event, gap] : certified(image.motion)) {
+                gaps[event].push_back(gap.value);
+                sizes[event] = std::max(sizes[event], gap.size);
+            }
+        for (const auto& [event, values] : gaps) {
+            if (values.size() < problem_.terms() || *std::ranges::min_element(values) > near * sizes[event])
+                continue;
+            least_around(values, [&](double turns) -> std::optional<double> {
+                const auto motion = facts_.admissible ? angles_.motion_from(turns) : std::nullopt;
+                if (!motion)
+                    return std::nullopt;
+                const auto found = certified(*motion);
+                const auto gap = found.find(event);
+                return gap == found.end() ? std::nullopt : std::optional(gap->second.value);
+            });
+        }
     }
 
 private:
     using EventOfSegment = std::pair<std::size_t, std::size_t>;
-    /// The least value of an event's function along the motion from an angle.
-    struct Gap {
-        double turns = 0, value = 0, size = 0;
-    };
-
-    /// Returns the least values of functions of events along a motion, and notes its certificate.
-    std::map<EventOfSegment, Gap> note(double turns, const Orbit& motion, bool keep = true) {
+    /// Notes the certificate of a motion. @return the least values of the functions of events along it
+    std::map<EventOfSegment, OrbitMinimum> certified(const Orbit& motion) {
         Shooting shooting(simulation_, motion, {});
         OrbitEvaluation at = shooting.evaluation();
-        const bool followed = shooting.evaluate(shooting.unknowns_of(motion), at);
-        const Certificate certificate =
-            followed ? certify(shooting, at) : Certificate{.admissible = false, .reason = at.problem};
+        Certificate certificate;
+        if (shooting.evaluate(shooting.unknowns_of(motion), at)) {
+            certificate = certify(shooting, at);
+        } else {
+            certificate.admissible = false;
+            certificate.reason = at.problem;
+        }
         if (facts_.admissible && !certificate.admissible) {
             facts_.admissible = false;
             facts_.reason = certificate.reason;
         }
         for (std::size_t s = 0; s < certificate.approach_speeds.size(); ++s)
             facts_.approach_speeds[s] = std::min(facts_.approach_speeds[s], certificate.approach_speeds[s]);
-        std::map<EventOfSegment, Gap> least;
+        std::map<EventOfSegment, OrbitMinimum> least;
         for (const OrbitMinimum& minimum : certificate.minima) {
-            const auto [one, added] =
-                least.try_emplace({minimum.segment, minimum.event}, Gap{turns, minimum.value, minimum.size});
+            const auto [one, added] = least.try_emplace({minimum.segment, minimum.event}, minimum);
             if (!added && minimum.value < one->second.value)
-                one->second = {turns, minimum.value, minimum.size};
+                one->second = minimum;
         }
-        for (const auto& [event, gap] : least)
-            if (keep)
-                gaps_[event].push_back(gap);
         return least;
     }
 
-    /// Looks where the function of an event is least, by parabolas through three angles.
-    void seek_least(const EventOfSegment& event, const std::vector<Gap>& gaps) {
-        constexpr double near = 0.2; // of the function's size: other events are not nearly touched
-        constexpr int parabolas = 4;
-        const std::size_t count = gaps.size();
-        const auto lowest = static_cast<std::size_t>(
-            std::ranges::min_element(gaps, {}, [](const Gap& gap) { return gap.value; }) - gaps.begin());
-        if (!(gaps[lowest].value < near * gaps[lowest].size))
-            return;
-        Gap before = gaps[(lowest + count - 1) % count], middle = gaps[lowest], after = gaps[(lowest + 1) % count];
-        before.turns = middle.turns - 1 / static_cast<double>(count);
-        after.turns = middle.turns + 1 / static_cast<double>(count);
-        for (int i = 0; i < parabolas && facts_.admissible; ++i) {
-            const double left = middle.turns - before.turns, right = after.turns - middle.turns,
-                         rise = (after.value - middle.value) / right, fall = (middle.value - before.value) / left,
-                         curvature = (rise - fall) / (left + right),
-                         turns = middle.turns - 0.5 * ((fall * right + rise * left) / (left + right)) / curvature;
-            if (!(curvature > 0) || !(turns > before.turns && turns < after.turns) || turns == middle.turns)
-                return;
-            const auto image = problem_.setting().back->follow(torus_.state_at(turns), parameter_,
-                                                               problem_.images()[lowest].motion.durations);
-            if (!image)
-                return;
-            const auto found = note(turns, image->motion, false);
-            const auto here = found.find(event);
-            if (here == found.end())
-                return;
-            const Gap& gap = here->second;
-            Gap& outer = gap.value < middle.value ? (turns > middle.turns ? before : after)
-                                                  : (turns > middle.turns ? after : before);
-            outer = gap.value < middle.value ? middle : gap;
-            if (gap.value < middle.value)
-                middle = gap;
-        }
-    }
-
     const TorusProblem& problem_;
+    const TorusAngles& angles_;
     const Simulation& simulation_;
-    Torus torus_;
-    double parameter_;
     TorusFacts& facts_;
-    std::map<EventOfSegment, std::vector<Gap>> gaps_;
 };
 
 } // namespace
@@ -211,9 +204,30 @@ TorusFacts facts_of(const TorusProblem& problem, std::span<const double> u, cons
     facts.tail = problem.tail_of(u);
     facts.growth = growth_away(problem, u);
     facts.approach_speeds.assign(problem.setting().back->first().segments(), infinity);
-    MotionCheck(problem, u, simulation, facts).check();
-    facts.defect = largest_defect(problem, u);
+    const TorusAngles angles(problem, u);
+    MotionCheck(problem, angles, simulation, facts).check();
+    facts.defect = largest_defect(problem, angles);
     return facts;
+}
+
+std::vector<double> extremes_of(const TorusProblem& problem, std::span<const double> u, OrbitMonitors& monitors) {
+    std::vector<std::vector<double>> samples(monitors.monitors().size());
+    const auto sign_of = [&](std::size_t m) {
+        return monitors.monitors()[m].kind == Monitor::Kind::maximum ? -1.0 : 1.0;
+    };
+    for (const SignatureReturn::Image& image : problem.images()) {
+        const std::vector<double> values = monitors(image.motion);
+        for (std::size_t m = 0; m < values.size(); ++m)
+            samples[m].push_back(sign_of(m) * values[m]);
+    }
+    const TorusAngles angles(problem, u);
+    std::vector<double> extremes;
+    for (std::size_t m = 0; m < samples.size(); ++m)
+        extremes.push_back(sign_of(m) * least_around(samples[m], [&](double turns) -> std::optional<double> {
+                               const auto motion = angles.motion_from(turns);
+                               return motion ? std::optional(sign_of(m) * monitors(*motion)[m]) : std::nullopt;
+                           }));
+    return extremes;
 }
 
 } // namespace graze

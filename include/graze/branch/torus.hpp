@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace graze {
@@ -22,8 +21,6 @@ struct Torus {
 
     std::size_t harmonics() const { return terms.size() / 2; }
     std::vector<double> state_at(double turns) const;
-    /// Returns the least and the greatest value of a state around the circle.
-    std::pair<double, double> extremes(std::size_t state) const;
 };
 
 /// What is known of a torus besides itself.

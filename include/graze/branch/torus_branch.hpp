@@ -27,6 +27,7 @@ struct TorusPoint {
     double parameter = 0, arclength = 0;
     bool stable = false;
     std::size_t step = 0, iterations = 0;
+    std::vector<double> monitors;  ///< extremes over the whole torus
     std::vector<Resonance> passed; ///< resonances between the torus before and this one
 };
 
@@ -51,7 +52,7 @@ std::string_view name_of(TorusOutcome outcome);
 class TorusBranch {
 public:
     /// @param point of type `torus` @param settings of which the parameter, its bounds, the number of steps, the steps
-    /// of the continuation and the tolerances of orbits are used
+    /// of the continuation, the tolerances of orbits and monitors of the kinds maximum and minimum are used
     /// @throws InputError for other points and settings, and for orbits that contain complete chatter
     TorusBranch(const System& system, const SpecialPoint& point, const BranchSettings& settings,
                 const TorusResolution& resolution = {});
