@@ -152,7 +152,7 @@ public:
         for (const auto& [event, values] : gaps) {
             if (values.size() < problem_.terms() || *std::ranges::min_element(values) > near * sizes[event])
                 continue;
-            least_around(values, [&](double turns) -> std::optional<double> {
+            least_around(values, [this, &event = event](double turns) -> std::optional<double> {
                 const auto motion = facts_.admissible ? angles_.motion_from(turns) : std::nullopt;
                 if (!motion)
                     return std::nullopt;
