@@ -22,8 +22,8 @@ namespace {
 
 /// Corrections longer than this share of a step may lead to other tori, or to the orbit, and are rejected.
 constexpr double largest_correction = 0.5;
-/// Largest denominator of resonances that are told, and of those that are strong: near them there may be no torus.
-constexpr std::size_t largest_denominator = 8, largest_strong = 4;
+/// Largest denominator of resonances that are told.
+constexpr std::size_t largest_denominator = 8;
 
 /// Returns the resonance with the smallest denominator within a distance of a rotation number.
 std::optional<Resonance> resonance_near(double rotation, double distance) {
@@ -66,7 +66,7 @@ void require_torus_point(const SpecialPoint& point) {
 
 void require_extremes(const std::vector<Monitor>& monitors) {
     for (const Monitor& one : monitors)
-        if (one.kind != Monitor::Kind::maximum && one.kind != Monitor::Kind::minimum)
+        if (!is_extreme(one))
             throw InputError(fmt::format("monitor '{}' has no single value on a torus", one.name),
                              "choose a maximum or a minimum");
 }
@@ -95,14 +95,12 @@ TurningPair turning_pair(const Eigen::MatrixXd& derivatives) {
 } // namespace
 
 void TorusResolution::validate() const {
-    constexpr std::size_t fewest = 3, most = 512;
-    constexpr double smallest = 1e-14, largest = 1e-2;
-    if (harmonics < fewest || harmonics > most)
+    if (harmonics < fewest_harmonics || harmonics > most_harmonics)
         throw InputError(fmt::format("{} harmonics are out of range", harmonics),
-                         fmt::format("choose between {} and {}", fewest, most));
-    if (!(tail >= smallest && tail <= largest))
+                         fmt::format("choose between {} and {}", fewest_harmonics, most_harmonics));
+    if (!(tail >= least_tail && tail <= largest_tail))
         throw InputError(fmt::format("the tail {} of the harmonics is out of range", tail),
-                         fmt::format("choose between {} and {}", smallest, largest));
+                         fmt::format("choose between {} and {}", least_tail, largest_tail));
 }
 
 std::string_view name_of(TorusOutcome outcome) {
@@ -121,6 +119,8 @@ public:
         resolution.validate();
         settings.validate(system.model());
         require_extremes(settings.monitors);
+        if (settings.family || !settings.free.empty())
+            throw InputError("tori are followed in one parameter, and not along a family", "name one parameter alone");
         settings_.continuation.accuracy = std::max(settings.continuation.accuracy, settings.orbit.accuracy);
         const double at = point.solution.orbit.parameters[settings.parameter.place()];
         if (is_beyond(at))
@@ -289,8 +289,7 @@ bool TorusBranch::Follower::start() {
         return take(*there, std::move(small));
     }
     std::string why = "Newton's method did not converge to small tori";
-    if (const auto strong = resonance_near(origin_[problem_->rotation_place()], 0.01);
-        strong && strong->denominator <= largest_strong)
+    if (const auto strong = resonance_near(origin_[problem_->rotation_place()], 0.01); strong && strong->is_strong())
         why += fmt::format("; the point is near the strong resonance {}/{}", strong->numerator, strong->denominator);
     return end(TorusOutcome::no_start, why);
 }

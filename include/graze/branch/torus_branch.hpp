@@ -13,8 +13,10 @@ namespace graze {
 
 /// How finely tori are resolved.
 struct TorusResolution {
-    std::size_t harmonics = 64; ///< largest number of harmonics, 3 .. 512; the work grows with its third power
-    double tail = 1e-9;         ///< largest share of the last harmonics, 1e-14 .. 1e-2, beyond which more are taken
+    static constexpr std::size_t fewest_harmonics = 3, most_harmonics = 512;
+    static constexpr double least_tail = 1e-14, largest_tail = 1e-2;
+    std::size_t harmonics = 64; ///< largest number of harmonics; the work grows with its third power
+    double tail = 1e-9;         ///< largest share of the last harmonics, beyond which more are taken
     /// @throws InputError naming the number that is out of range
     void validate() const;
 };
