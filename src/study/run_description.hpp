@@ -116,8 +116,10 @@ void describe_path(Fields& fields, Run& run, const std::vector<std::string>& par
     auto& branch = run.branch().settings;
     const bool plane = run.kind == RunKind::curve, begins_at_point = begins_at_special_point(run.kind);
     fields.form({"along", plane ? "the two parameters, with their bounds"
-                                : "the parameter along which orbits are followed, with its bounds; or, along a family "
-                                  "at the same parameters, a conserved quantity or `period`"},
+                          : run.kind == RunKind::torus
+                              ? "the parameter along which tori are followed, with its bounds"
+                              : "the parameter along which orbits are followed, with its bounds; or, along a family "
+                                "at the same parameters, a conserved quantity or `period`"},
                 plane             ? "{ omega = [0, 3], V = [0, 1] }"
                 : begins_at_point ? "{ V = [0, 1] }"
                                   : "{ V = [0, 1] } or \"V\"",
