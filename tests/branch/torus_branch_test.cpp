@@ -164,6 +164,25 @@ TEST(TorusBranch, DelayedLogisticMapTurnsAsItsIteration) {
     EXPECT_GT(points.back().torus.harmonics(), 5U);
 }
 
+/// Without force the torus of a van der Pol oscillator is its limit cycle, which the clock meets at any time.
+TEST(TorusBranch, VanDerPolComesToItsFreeOscillation) {
+    const std::string acceleration = "0.3*(1 - x^2)*v - x + F*cos(theta)";
+    const Model model = driven("F = 2\nomega = 1.2", acceleration, "omega");
+    BranchSettings settings = in_parameter(model, "F", 0, 2, -1);
+    TorusBranch branch(System(model), torus_point(model, settings), settings);
+    const std::vector<TorusPoint> points = all_of(branch);
+    ASSERT_EQ(branch.outcome(), TorusOutcome::bound) << branch.detail();
+    const TorusPoint& last = points.back();
+    EXPECT_NEAR(last.parameter, 0, 1e-12);
+    const Model free =
+        OneMode{.states = "x = 2\nv = 0", .rates = "x = 'v', v = '0.3*(1 - x^2)*v - x'", .more = section("rising", "x")}
+            .model();
+    const OrbitSolution cycle = settled(free, "rising");
+    const double turns = 2 * pi / 1.2 / cycle.orbit.period();
+    EXPECT_NEAR(last.torus.rotation, 1 - turns, 1e-9);
+    EXPECT_NEAR(std::log(last.facts.growth), turns * std::log(std::abs(cycle.multipliers[0])), 1e-8);
+}
+
 TEST(TorusBranch, EndsWhereMoreHarmonicsAreNeededThanAllowed) {
     const Model model = map_model("a = 1.9", {"a*x*(1 - y)", "x"});
     BranchSettings settings = in_parameter(model, "a", 1.8, 2.4);
