@@ -2,6 +2,7 @@
 
 #include "base/decompositions.hpp"
 #include "base/enumerator_name.hpp"
+#include "branch/resonances.hpp"
 #include "branch/torus_facts.hpp"
 #include "graze/base/input_error.hpp"
 #include "orbit/shooting.hpp"
@@ -12,7 +13,6 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -22,37 +22,6 @@ namespace {
 
 /// Corrections longer than this share of a step may lead to other tori, or to the orbit, and are rejected.
 constexpr double largest_correction = 0.5;
-/// Largest denominator of resonances that are told.
-constexpr std::size_t largest_denominator = 8;
-
-/// Returns the resonance with the smallest denominator within a distance of a rotation number.
-std::optional<Resonance> resonance_near(double rotation, double distance) {
-    for (std::size_t q = 1; q <= largest_denominator; ++q) {
-        const double numerator = std::round(rotation * static_cast<double>(q));
-        if (numerator >= 0 && std::abs(rotation - numerator / static_cast<double>(q)) <= distance)
-            return Resonance{static_cast<std::size_t>(numerator), q};
-    }
-    return std::nullopt;
-}
-
-/// Returns the resonances between two rotation numbers, in this order.
-std::vector<Resonance> resonances_between(double from, double to) {
-    std::vector<Resonance> passed;
-    const double least = std::min(from, to), greatest = std::max(from, to);
-    for (std::size_t q = 1; q <= largest_denominator; ++q)
-        for (auto p = static_cast<std::size_t>(std::max(std::ceil(least * static_cast<double>(q)), 0.0));; ++p) {
-            const Resonance one{p, q};
-            if (!(one.value() <= greatest))
-                break;
-            if (std::gcd(p, q) == 1 && one.value() != from)
-                passed.push_back(one);
-        }
-    std::ranges::sort(passed, [&](const Resonance& one, const Resonance& other) {
-        return from < to ? one.value() < other.value() : one.value() > other.value();
-    });
-    return passed;
-}
-
 void require_torus_point(const SpecialPoint& point) {
     const std::string remedy = "start from a torus point (NS) of a branch of orbits";
     if (point.type != PointType::torus)
