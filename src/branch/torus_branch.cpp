@@ -119,7 +119,7 @@ private:
 
     void set_up(const Orbit& orbit);
     bool refine();
-    std::optional<ContinuationPoint> along(double distance);
+    std::optional<ContinuationPoint> along(double distance, const std::vector<double>& guess = {});
     std::optional<ContinuationPoint> resolved_along(double distance);
     std::optional<ContinuationPoint> next_point(double& length);
     bool end_without_step();
@@ -136,7 +136,7 @@ private:
     std::shared_ptr<TorusProblem> problem_;
     /// Unknowns from which the next step is made, its direction, and the circle to which the phase condition refers.
     std::vector<double> origin_, direction_, reference_;
-    double next_length_ = 0;
+    double next_length_ = 0, first_parameter_ = 0;
     bool unresolved_ = false; ///< the last attempt needed more harmonics than are allowed
     TorusPoint point_;
     TorusOutcome outcome_ = TorusOutcome::no_start;
@@ -145,7 +145,7 @@ private:
 
 /// Prepares the circles along the vector of the multipliers.
 void TorusBranch::Follower::set_up(const Orbit& orbit) {
-    constexpr std::size_t harmonics = 5; // at first
+    constexpr std::size_t harmonics = 3; // at first: only strong resonances make these equations singular
     const double range = settings_.least && settings_.greatest ? *settings_.greatest - *settings_.least : 0;
     Shooting shooting(simulation_, orbit, {settings_.parameter}, {range});
     OrbitEvaluation at = shooting.evaluation();
@@ -153,10 +153,11 @@ void TorusBranch::Follower::set_up(const Orbit& orbit) {
         throw InputError("the orbit cannot be followed: " + at.problem, "choose another torus point");
     setting_.active = at.active;
     setting_.scales = at.scales.head(index(orbit.starts[0].size()));
-    setting_.parameter_scale = at.scales[index(shooting.layout().parameter(0))];
+    constexpr double share = 0.5; // of the range
+    setting_.parameter_scale = std::max(at.scales[index(shooting.layout().parameter(0))], share * range);
     setting_.parameter = settings_.parameter;
     setting_.back = std::make_shared<SignatureReturn>(simulation_, orbit, settings_.parameter, setting_.scales);
-    const double parameter = orbit.parameters[settings_.parameter.place()];
+    const double parameter = first_parameter_ = orbit.parameters[settings_.parameter.place()];
     const auto image = setting_.back->follow(orbit.starts[0], parameter, orbit.durations);
     if (!image)
         throw InputError("the orbit cannot be followed: " + setting_.back->problem(), "choose another torus point");
@@ -184,6 +185,7 @@ bool TorusBranch::Follower::refine() {
         return false;
     auto finer = std::make_shared<TorusProblem>(setting_, more);
     finer->take_durations(*problem_);
+    finer->set_parameter_scale(problem_->scales()[problem_->parameter_place()]);
     for (std::vector<double>* numbers : {&origin_, &direction_, &reference_})
         *numbers = finer->extended(*numbers);
     problem_ = std::move(finer);
@@ -191,10 +193,14 @@ bool TorusBranch::Follower::refine() {
 }
 
 /// Returns the torus at a distance from the origin of the step, in the plane across its direction.
-std::optional<ContinuationPoint> TorusBranch::Follower::along(double distance) {
+/// @param guess in that plane; empty: the point along the direction
+std::optional<ContinuationPoint> TorusBranch::Follower::along(double distance, const std::vector<double>& guess) {
     Continuation there(problem_, settings_.continuation);
     problem_->accept(reference_);
-    if (!there.start_along(origin_, direction_, distance))
+    std::vector<double> from = guess.empty() ? origin_ : guess;
+    if (!guess.empty())
+        entries_of(from) -= distance / problem_->length_of(direction_) * vector_of(direction_);
+    if (!there.start_along(from, direction_, distance))
         return std::nullopt;
     ContinuationPoint point = there.point();
     std::vector<double> off = point.u;
@@ -212,7 +218,7 @@ std::optional<ContinuationPoint> TorusBranch::Follower::resolved_along(double di
     auto there = along(distance);
     while (there && problem_->tail_of(there->u) > resolution_.tail) {
         unresolved_ = !refine();
-        there = unresolved_ ? std::nullopt : along(distance);
+        there = unresolved_ ? std::nullopt : along(distance, problem_->extended(there->u));
     }
     return there;
 }
@@ -237,13 +243,17 @@ bool TorusBranch::Follower::take(const ContinuationPoint& at, TorusPoint next) {
     point_ = std::move(next);
     origin_ = reference_ = at.u;
     direction_ = at.tangent;
+    // A parameter that is zero at the orbit has the size of its change.
+    const double change = std::abs(point_.parameter - first_parameter_);
+    problem_->set_parameter_scale(
+        std::max({problem_->scales()[problem_->parameter_place()], std::abs(point_.parameter), change}));
     return true;
 }
 
 bool TorusBranch::Follower::start() {
     constexpr double turned = 0.02; // change of the rotation number that a small torus does not exceed
     const double first = settings_.continuation.first_step;
-    for (const double share : {1.0, 0.5, 0.25, 2.0, 4.0, 0.125}) {
+    for (const double share : {1.0, 2.0, 4.0, 8.0, 16.0, 0.5, 0.25, 0.125}) {
         const auto there = resolved_along(share * first);
         const std::size_t place = problem_->rotation_place();
         if (!there || !(std::abs(there->u[place] - origin_[place]) < turned))
@@ -275,7 +285,8 @@ std::optional<ContinuationPoint> TorusBranch::Follower::next_point(double& lengt
             break;
         if (!there)
             continue;
-        const double cosine = problem_->product(there->tangent, direction_) / problem_->length_of(direction_),
+        const double cosine = problem_->product(there->tangent, direction_) /
+                              (problem_->length_of(there->tangent) * problem_->length_of(direction_)),
                      angle = std::acos(std::clamp(cosine, -1.0, 1.0));
         if (angle > options.largest_angle && length > 2 * options.smallest_step)
             continue;

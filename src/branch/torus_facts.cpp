@@ -91,46 +91,38 @@ private:
 };
 
 /// Returns the mean growth per return of the deviation that grows fastest, without its component along the circle,
-/// which neither grows nor decays. The mean along the quasi-periodic motion is weighted by a smooth bump, with which it
-/// converges faster than any power of the number of returns (S. Das, Y. Saiki, E. Sander and J. A. Yorke, Nonlinearity
-/// 30, 2017).
+/// which neither grows nor decays: the mean over motions from all angles, which is that along one of them.
 double growth_away(const TorusProblem& problem, std::span<const double> u) {
-    constexpr std::size_t transient = 300, returns = 1500;
+    constexpr std::size_t transient = 100, returns = 50, fewest_angles = 64;
     const Eigen::MatrixXd circle = circle_of(problem, u);
     const Eigen::Index size = circle.rows();
-    if (size < 2)
-        return 0;
+    const std::size_t angles = std::max(fewest_angles, 2 * problem.terms());
     const DerivativesAround derivatives(problem);
     const Eigen::VectorXd scales = problem.setting().scales(problem.setting().active);
     const double rotation = u[problem.rotation_place()];
     const auto along = [&](double turns) -> Eigen::VectorXd {
         return (circle * circle_function_rates(problem.harmonics(), turns)).cwiseQuotient(scales).normalized();
     };
-    Eigen::VectorXd deviation(size);
-    for (Eigen::Index i = 0; i < size; ++i)
-        deviation[i] = std::cos(2.4 * static_cast<double>(i)); // no special direction
-    Eigen::VectorXd tangent = along(0);
-    double sum = 0, weights = 0;
-    for (std::size_t n = 0; n < transient + returns; ++n) {
-        const double turns = rotation * static_cast<double>(n);
+    double sum = 0;
+    for (std::size_t j = 0; j < angles; ++j) {
+        double turns = static_cast<double>(j) / static_cast<double>(angles);
+        Eigen::VectorXd deviation(size), tangent = along(turns);
+        for (Eigen::Index i = 0; i < size; ++i)
+            deviation[i] = std::cos(2.4 * static_cast<double>(i)); // no special direction
         deviation -= tangent.dot(deviation) * tangent;
-        const double before = deviation.norm();
-        if (!(before > 0))
-            return 0;
-        const Eigen::VectorXd after = derivatives.at(turns) * (deviation / before);
-        tangent = along(turns + rotation);
-        deviation = after - tangent.dot(after) * tangent;
-        const double growth = deviation.norm();
-        if (!(growth > 1e-13)) // all deviations vanish, up to round-off
-            return 0;
-        if (n < transient)
-            continue;
-        const double at = (static_cast<double>(n - transient) + 1) / (static_cast<double>(returns) + 1);
-        const double weight = std::exp(-1 / (at * (1 - at)));
-        sum += weight * std::log(growth);
-        weights += weight;
+        for (std::size_t n = 0; n < transient + returns; ++n) {
+            const Eigen::VectorXd after = derivatives.at(turns) * deviation.normalized();
+            turns += rotation;
+            tangent = along(turns);
+            deviation = after - tangent.dot(after) * tangent;
+            const double growth = deviation.norm();
+            if (!(growth > 1e-13)) // all deviations vanish, up to round-off
+                return 0;
+            if (n >= transient)
+                sum += std::log(growth);
+        }
     }
-    return std::exp(sum / weights);
+    return std::exp(sum / static_cast<double>(angles * returns));
 }
 
 /// Checks whether the model would follow the motions from all angles. They are looked at from those at which the

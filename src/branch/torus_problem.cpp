@@ -128,7 +128,7 @@ void TorusProblem::assemble(const Eigen::MatrixXd& circle, double rotation) {
         }
         rows.col(size - 2) = -(circle * rates).cwiseQuotient(scales);
         const Eigen::VectorXd by_parameter = image.derivatives.col(image.derivatives.cols() - 1)(setting_.active);
-        rows.col(size - 1) = by_parameter.cwiseQuotient(scales) * setting_.parameter_scale;
+        rows.col(size - 1) = by_parameter.cwiseQuotient(scales);
     }
 }
 
@@ -149,8 +149,9 @@ bool TorusProblem::solve(std::span<const double> row, double right, bool homogen
     if (at_.empty() || phase_.size() != size)
         return false;
     const auto scales = vector_of(scales_);
-    Eigen::MatrixXd bordered(size, size);
+    Eigen::MatrixXd bordered = Eigen::MatrixXd::Zero(size, size);
     bordered.topRows(size - 2) = matrix_;
+    bordered.col(size - 1) *= scales_[parameter_place()];
     bordered.row(size - 2) = phase_;
     bordered.row(size - 1) = vector_of(row).cwiseProduct(scales);
     Eigen::VectorXd values = Eigen::VectorXd::Zero(size);

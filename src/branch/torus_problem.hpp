@@ -48,6 +48,8 @@ public:
     const std::vector<SignatureReturn::Image>& images() const { return images_; }
     /// Why the last evaluation failed.
     const std::string& problem() const { return problem_; }
+    /// Sets the scale of the parameter, which is not to change within a step.
+    void set_parameter_scale(double scale) { scales_[parameter_place()] = scale; }
     /// Takes over the durations of motions of a problem with fewer terms, as first guesses.
     void take_durations(const TorusProblem& other);
 
@@ -67,7 +69,7 @@ private:
     std::vector<double> scales_, at_; ///< at_: unknowns of the last evaluation; empty: none
     std::vector<SignatureReturn::Image> images_;
     std::vector<std::vector<double>> durations_; ///< of the motions from each of the angles
-    Eigen::MatrixXd matrix_;            ///< derivatives of the equations in scaled unknowns, phase condition last
+    Eigen::MatrixXd matrix_; ///< derivatives of the scaled equations by scaled unknowns, but by the parameter itself
     Eigen::VectorXd residuals_, phase_; ///< the same; row of the phase condition
     std::string problem_;
 };
