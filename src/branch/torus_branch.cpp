@@ -353,6 +353,9 @@ bool TorusBranch::Follower::end_at_bound(double length, double beyond) {
             TorusPoint next = described(*there);
             if (!next.facts.admissible)
                 return end_at_grazing(middle, next.facts.reason);
+            next.parameter = bound;
+            for (std::vector<double>* parameters : {&next.torus.parameters, &next.motion.parameters})
+                (*parameters)[settings_.parameter.place()] = bound;
             outcome_ = TorusOutcome::bound;
             return take(*there, std::move(next));
         }

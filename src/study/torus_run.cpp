@@ -21,10 +21,13 @@ std::string passed_in_words(const TorusPoint& torus) {
 }
 
 /// The point that is stored of a torus: one return on it, with what is known of all.
-SpecialPoint point_of(const TorusPoint& torus, bool at_bound) {
+SpecialPoint point_of(const TorusPoint& torus, bool at_bound, const std::string& parameter) {
     SpecialPoint point;
     point.type = at_bound ? PointType::bound : torus.step == 0 ? PointType::end : PointType::regular;
     point.detail = torus.step == 0 ? "start" : passed_in_words(torus);
+    if (at_bound)
+        point.detail =
+            fmt::format("{} = {:.10g}{}{}", parameter, torus.parameter, point.detail.empty() ? "" : "; ", point.detail);
     OrbitSolution& solution = point.solution;
     solution.orbit = torus.motion;
     solution.outcome = OrbitOutcome::converged;
@@ -55,13 +58,15 @@ bool run_torus(const StudyRun& run, const System& system, const OrbitRecord& fir
     const BranchRequest& branch = run.branch();
     TorusBranch tori = at_place(run.start->place, run,
                                 [&] { return TorusBranch(system, first.point, branch.settings, branch.torus); });
+    const std::string parameter = coordinate_name(branch.settings, run.model);
     bool going = tori.start();
     if (!going)
         throw InputError(run.start->place, fmt::format("run '{}': no tori were found: {}", run.name, tori.detail()),
                          "give another first step: step = { first = 1e-3 }, or begin at another torus point");
     while (going) {
         const TorusPoint& torus = tori.point();
-        writer.add("", point_of(torus, tori.outcome() == TorusOutcome::bound), torus.stable, record_of(torus));
+        const bool at_bound = tori.outcome() == TorusOutcome::bound;
+        writer.add("tori", point_of(torus, at_bound, parameter), torus.stable, record_of(torus));
         if (options.interrupted && options.interrupted())
             return false;
         going = tori.step();
