@@ -219,7 +219,10 @@ void describe_branch(Fields& fields, Run& run) {
         fields.field("table", run.branch().table_text);
     else
         fields.field("table", text_of_table(run.branch()));
-    fields.form({"monitors", "named numbers that are computed of each orbit (the period and the maxima of the states)"},
+    fields.form({"monitors", run.kind == RunKind::torus
+                                 ? "named maxima and minima over each torus (the maxima of the states)"
+                                 : "named numbers that are computed of each orbit (the period and the maxima of the "
+                                   "states)"},
                 "{ NAME = { ... } }", &read_monitors);
     fields.list("monitors", branch.monitors, [](auto& one, auto& monitor) { describe_monitor(one, monitor); });
     fields.number(

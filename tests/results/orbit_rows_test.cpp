@@ -145,7 +145,8 @@ TEST_F(OrbitRows, ToriAreReadAsWritten) {
     EXPECT_NE(std::find(names.begin(), names.end(), "rotation_number"), names.end());
     file.flush();
     testing::change(path_, "UPDATE circles SET state = 'nobody' WHERE position = 1");
-    EXPECT_EQ(file.orbit("b", std::size_t{0})->torus->circle.size(), 3U);
+    const ResultFile changed(path_, ResultFile::Access::read);
+    EXPECT_EQ(changed.orbit("b", std::size_t{0})->torus->circle.size(), 3U);
 }
 
 TEST_F(OrbitRows, FindingsAtTouchesAreReadAsWritten) {
