@@ -8,6 +8,8 @@
 namespace graze {
 
 std::vector<double> Torus::state_at(double turns) const {
+    if (terms.empty())
+        return {};
     std::vector<double> state = terms[0];
     for (std::size_t k = 1; k <= harmonics(); ++k) {
         const double angle = 2 * std::numbers::pi * static_cast<double>(k) * turns, even = std::cos(angle),
