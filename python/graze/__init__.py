@@ -8,7 +8,7 @@
 
 from . import _graze
 from ._bench import Bench, BenchService, bench
-from ._branch import Branch, Curve, Equilibria, Ladder, Orbit
+from ._branch import Branch, Curve, Equilibria, Ladder, Orbit, Tori
 from ._certificate import Certificate
 from ._chatter import Chatter
 from ._design import Design, design, design_text, designs
@@ -30,7 +30,7 @@ from ._plot import Figure
 from ._point import Point
 from ._record import HarmonicFit, MeasuredRecord, MeasuredRecords, PeriodFit, read_record
 from ._run import Basin, Ensemble, Run, Sweep
-from ._runs import basin, curve, ensemble, equilibria, follow, identify, ladder, orbit, record, sweep
+from ._runs import basin, curve, ensemble, equilibria, follow, identify, ladder, orbit, record, sweep, torus
 from ._simulation import Simulation, simulate
 from ._study import Study, points, read_results, run_study, studies
 from ._table import Table
@@ -49,10 +49,10 @@ __all__ = [
     "Jump", "Ladder", "Layout", "LocatedSolution", "LumpedModel", "MapMotion", "MeasuredRecord", "MeasuredRecords",
     "Mode", "Model", "ModelError", "Motion", "Orbit", "OrderError", "Parameter", "Parameters", "PeriodFit", "Point",
     "Quantity", "Record", "Run", "RunFailed", "Section", "Simulation", "Slide", "State", "Study", "StudyError",
-    "Sweep", "Symmetry", "Table", "Tolerance", "Transition", "Trips", "Wafers", "WorkersLost", "acos", "acquire",
+    "Sweep", "Symmetry", "Table", "Tolerance", "Tori", "Transition", "Trips", "Wafers", "WorkersLost", "acos", "acquire",
     "asin", "atan", "basin", "bench", "cos", "cosh", "coupling", "curve", "decrement", "design", "design_text",
     "designs", "ensemble", "equilibria", "erf", "exp", "expression", "follow", "identify", "impedance", "ladder",
     "layout", "load", "log", "mask_layers", "models", "orbit", "parameters", "points", "read_record",
     "read_results", "record", "restitution", "run_study", "simulate", "sin", "sinh", "sqrt", "states", "studies",
-    "sweep", "symbols", "tan", "tanh",
+    "sweep", "symbols", "tan", "tanh", "torus",
 ]

@@ -266,3 +266,10 @@ class Ladder(Branch):
     """A sequence of grazings, each with one contact more."""
 
     kind = "ladder"
+
+
+class Tori(Branch):
+    """The tori of quasi-periodic motion that begin at a torus point. `points` has a row for each, with its
+    `rotation_number`; the orbit of a point is one return of a motion on it, which does not close."""
+
+    kind = "torus"

@@ -14,7 +14,7 @@ from ._model import Model
 from ._progress import Progress, interruptible
 
 if TYPE_CHECKING:
-    from ._branch import Branch, Curve, Ladder, Orbit
+    from ._branch import Branch, Curve, Ladder, Orbit, Tori
 
 # Keys that have no effect where a run starts from an orbit.
 _OF_SETTLING = ("start", "from", "mode", "signature", "table", "section", "bounds", "cycles", "largest_period", "recurrence",
@@ -141,6 +141,14 @@ class Point(Fixed, PointAnalyses):
         along, keys = separated("ladder", along, keys, self._run._model, "ladder()")
         along = self._along_as_before() if along is None else along
         return self._child("ladder", {"along": along, **keys}, "ladder()", Ways(threads, progress))
+
+    @takes_keys_of("torus", *_OF_SETTLING)
+    def torus(self, *, along: Along = None, threads: Optional[int] = None, progress: Progress = None,
+              **keys: Any) -> Tori:
+        """The tori of quasi-periodic motion that begin at this torus point. RunFailed for other points."""
+        along, keys = separated("torus", along, keys, self._run._model, "torus()")
+        along = self._along_as_before() if along is None else along
+        return self._child("torus", {"along": along, **keys}, "torus()", Ways(threads, progress))
 
     def _along_as_before(self) -> Along:
         """The parameter that the branch follows, with its bounds; of a curve or an orbit: nothing."""

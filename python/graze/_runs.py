@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any, Optional
 
 from . import _arguments as checked
-from ._branch import Branch, Curve, Equilibria, Ladder, Orbit
+from ._branch import Branch, Curve, Equilibria, Ladder, Orbit, Tori
 from ._calls import Along, Source, compiled_model, computed, separated
 from ._computing import Ways
 from ._identification import Identification, Record
@@ -130,6 +130,22 @@ def ladder(point: Source, *, along: Along = None, threads: Optional[int] = None,
     if along is None and isinstance(point, Point):
         along = point._along_as_before()
     return computed(Ladder, point, {"along": along, **keys}, "ladder()", Ways(threads, progress))
+
+
+@takes_keys_of("torus")
+def torus(point: Source, *, along: Along = None, threads: Optional[int] = None, progress: Progress = None,
+          **keys: Any) -> Tori:
+    """The tori of quasi-periodic motion that begin at a torus point, as a parameter changes:
+    `torus(branch["NS1"], V=(0, 1))`.
+
+    point: a Point of type NS.
+
+    Returns Tori. Raises StudyError, and RunFailed where none begin.
+    """
+    along, keys = separated("torus", along, keys, compiled_model(point, "torus()"), "torus()")
+    if along is None and isinstance(point, Point):
+        along = point._along_as_before()
+    return computed(Tori, point, {"along": along, **keys}, "torus()", Ways(threads, progress))
 
 
 @takes_keys_of("record")

@@ -138,7 +138,7 @@ private:
             return;
         if (origin_.is_of(RunKind::curve))
             find_of_curve();
-        else
+        else if (!origin_.is_of(RunKind::torus))
             find_of_branch();
         find_of_any();
     }

@@ -20,7 +20,7 @@ namespace graze {
 namespace {
 
 /// What runs of each kind are, in the order of RunKind.
-constexpr std::array<std::string_view, 11> words_of_kinds{"motions of given duration",
+constexpr std::array<std::string_view, 12> words_of_kinds{"motions of given duration",
                                                           "attractors as a parameter changes",
                                                           "attractors from many initial states",
                                                           "a periodic orbit",
@@ -28,6 +28,7 @@ constexpr std::array<std::string_view, 11> words_of_kinds{"motions of given dura
                                                           "a branch of periodic orbits or equilibria",
                                                           "a curve of special points",
                                                           "a sequence of grazings",
+                                                          "a branch of tori",
                                                           "measured records",
                                                           "estimates from records",
                                                           "an atlas of attractors and branches"};

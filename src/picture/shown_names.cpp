@@ -15,7 +15,7 @@ namespace graze {
 namespace {
 
 /// Descriptions of values that every run has.
-constexpr std::array<std::pair<const char*, const char*>, 9> words_of_columns{{
+constexpr std::array<std::pair<const char*, const char*>, 11> words_of_columns{{
     {"t", "time"},
     {"period", "period"},
     {"multiplier", "modulus of the largest multiplier"},
@@ -25,6 +25,8 @@ constexpr std::array<std::pair<const char*, const char*>, 9> words_of_columns{{
     {"cycles", "returns until settled"},
     {"slowest_approach", "least speed of approach"},
     {"error", "error"},
+    {"rotation_number", "rotation number"},
+    {"torus_growth", "growth of deviations per return"},
 }};
 
 /// Descriptions of the values of runs of kind identify.

@@ -77,6 +77,19 @@ ColumnOf<Context, OrbitRecord> touch_text(const char* name) {
             }};
 }
 
+/// A number that only tori have, besides their rotation number.
+template <double TorusRecord::*number>
+ColumnOf<Context, OrbitRecord> torus_number(const char* name) {
+    return {added(shown(name)),
+            [](const Context&, const OrbitRecord& r, CellWriter& cell) {
+                r.torus ? cell.real((*r.torus).*number) : cell.nothing();
+            },
+            [](const Context&, OrbitRecord& r, CellReader& cell) {
+                if (r.torus)
+                    (*r.torus).*number = cell.number();
+            }};
+}
+
 /// Least speed at which the orbit meets an event; unknown if it meets none. It goes to zero where a contact is lost.
 double slowest_approach(const OrbitSolution& solution) {
     double slowest = not_a_number;
@@ -146,7 +159,9 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
          }},
         truth_column(shown("stable"), [](auto& r) { return &r.stable; }),
         {added({"unstable", ColumnType::whole, ColumnUnit::none, true}), // and this from the multipliers
-         [](const Context&, const Record& r, CellWriter& cell) { cell.whole(unstable_directions(r.point.solution)); }},
+         [](const Context&, const Record& r, CellWriter& cell) {
+             r.torus ? cell.nothing() : cell.whole(unstable_directions(r.point.solution));
+         }},
         {added(shown("slowest_approach")), // this from the segments again
          [](const Context&, const Record& r, CellWriter& cell) { cell.real(slowest_approach(r.point.solution)); }},
         truth_column(shown("admissible"), [](auto& r) { return &r.point.solution.certificate.admissible; }),
@@ -199,6 +214,24 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
         touch_number<&TouchFindings::clearance_rate>("touch_clearance_rate"),
         touch_number<&TouchFindings::speed_factor>("touch_speed_factor", "touch_first_speed"),
         touch_number<&TouchFindings::fold_distance>("touch_fold_distance"),
+        {added(shown("rotation_number")),
+         [](const Context&, const Record& r, CellWriter& cell) {
+             r.torus ? cell.real(r.torus->rotation) : cell.nothing();
+         },
+         [](const Context&, Record& r, CellReader& cell) {
+             if (!cell.is_nothing())
+                 r.torus.emplace().rotation = cell.number();
+         }},
+        torus_number<&TorusRecord::growth>("torus_growth"),
+        {added({"torus_harmonics", ColumnType::whole, ColumnUnit::none, true}),
+         [](const Context&, const Record& r, CellWriter& cell) {
+             r.torus ? cell.whole(r.torus->harmonics) : cell.nothing();
+         },
+         [](const Context&, Record& r, CellReader& cell) {
+             if (r.torus)
+                 r.torus->harmonics = cell.whole();
+         }},
+        torus_number<&TorusRecord::tail>("torus_tail"),
         {{"tangent", ColumnType::text}, // as JSON
          [](const Context&, const Record& r, CellWriter& cell) {
              cell.text(fmt::format("[{}]", fmt::join(numbers_of(r.point.tangent), ",")));
@@ -265,6 +298,22 @@ const ColumnsOf<OrbitContext, EndValue>& end_value_columns() {
         event_column<EndValue>(),
         extended_column(kept("value"), [](auto& e) { return &e.value; }),
         extended_column(kept("rate"), [](auto& e) { return &e.rate; }),
+    };
+    return columns;
+}
+
+const ColumnsOf<OrbitContext, CircleTerm>& circle_columns() {
+    static const ColumnsOf<OrbitContext, CircleTerm> columns{
+        whole_column(kept("harmonic"), [](auto& t) { return &t.harmonic; }),
+        {{"state", ColumnType::text},
+         [](const Context& context, const CircleTerm& term, CellWriter& cell) {
+             cell.text(context.model->states[term.state].name);
+         },
+         [](const Context& context, CircleTerm& term, CellReader& cell) {
+             term.state = context.model->find_state(cell.text()).value_or(context.model->states.size());
+         }},
+        number_column(kept("cosine"), [](auto& t) { return &t.even; }),
+        number_column(kept("sine"), [](auto& t) { return &t.odd; }),
     };
     return columns;
 }

@@ -32,5 +32,7 @@ const ColumnsOf<OrbitContext, SegmentRow>& segment_columns();
 /// Columns of detail tables, after run, point and position. An unknown event is read as the number of events.
 const ColumnsOf<OrbitContext, OrbitMinimum>& minimum_columns();
 const ColumnsOf<OrbitContext, EndValue>& end_value_columns();
+/// An unknown state is read as the number of states.
+const ColumnsOf<OrbitContext, CircleTerm>& circle_columns();
 
 } // namespace graze

@@ -84,7 +84,8 @@ public:
           half_multipliers_(database, "half_multipliers", multiplier_columns(), run),
           eigenvalues_(database, "eigenvalues", multiplier_columns(), run),
           minima_(database, "minima", minimum_columns(), run),
-          end_values_(database, "end_values", end_value_columns(), run) {
+          end_values_(database, "end_values", end_value_columns(), run),
+          circles_(database, "circles", circle_columns(), run) {
         require_columns(segments_, tables_.sample_columns.size(), path_);
     }
 
@@ -105,6 +106,11 @@ public:
         solution.certificate.minima = of_known_events(minima_.of_point(context_, record.number), model, solution.orbit);
         solution.certificate.end_values =
             of_known_events(end_values_.of_point(context_, record.number), model, solution.orbit);
+        if (record.torus) {
+            record.torus->circle = circles_.of_point(context_, record.number);
+            std::erase_if(record.torus->circle,
+                          [&](const CircleTerm& term) { return term.state >= model.states.size(); });
+        }
         return record;
     }
 
@@ -134,6 +140,7 @@ private:
     DetailReader<RunRecord, std::complex<double>> multipliers_, half_multipliers_, eigenvalues_;
     DetailReader<OrbitContext, OrbitMinimum> minima_;
     DetailReader<OrbitContext, EndValue> end_values_;
+    DetailReader<OrbitContext, CircleTerm> circles_;
 };
 
 } // namespace
@@ -160,6 +167,8 @@ void ResultFile::add_orbit(const std::string& name, const OrbitRecord& record) {
         };
         write(writer.minimum, minimum_columns(), context, solution.certificate.minima);
         write(writer.end_value, end_value_columns(), context, solution.certificate.end_values);
+        if (record.torus)
+            write(writer.circle, circle_columns(), context, record.torus->circle);
         write(writer.multiplier, multiplier_columns(), run, solution.multipliers);
         write(writer.half_multiplier, multiplier_columns(), run, solution.half_multipliers);
         write(writer.eigenvalue, multiplier_columns(), run, solution.eigenvalues);

@@ -106,6 +106,7 @@ public:
         show_orbits();
         show_evidence();
         show_touches();
+        show_tori();
         show(!for_people_ ||
                  any([](const auto& p) { return !p.record.point.detail.empty() || is_unphysical(p.record); }),
              "detail", "", [this](const auto& p) { return cut(detail_of(p.record)); });
@@ -242,6 +243,18 @@ private:
             show(verdicts && !for_people_, name, "", [number = number](const auto& p) {
                 return p.record.touch ? ((*p.record.touch).*number).value_or(not_a_number) : not_a_number;
             });
+    }
+    void show_tori() {
+        const bool tori = any([](const auto& p) { return p.record.torus.has_value(); });
+        for (const auto& [name, number] : {std::pair("rotation_number", &TorusRecord::rotation),
+                                           {"torus_growth", &TorusRecord::growth},
+                                           {"torus_tail", &TorusRecord::tail}})
+            show(tori && (!for_people_ || number != &TorusRecord::tail), name, "", [number = number](const auto& p) {
+                return p.record.torus ? (*p.record.torus).*number : not_a_number;
+            });
+        show(tori, "torus_harmonics", "", [](const auto& p) {
+            return p.record.torus ? static_cast<double>(p.record.torus->harmonics) : not_a_number;
+        });
     }
     /// The monitors of all runs by name; for people without the period, which has its own column. A monitor with the
     /// name of another column gets a number appended to its name, as in the result file.

@@ -30,7 +30,7 @@ struct ResultFile::State {
     struct Writer {
         RunRecord run;
         Statement point, sample; ///< on a branch, sample writes segments of orbits
-        Statement multiplier, half_multiplier, eigenvalue, minimum, end_value;
+        Statement multiplier, half_multiplier, eigenvalue, minimum, end_value, circle;
         std::optional<Model> model; ///< set when the first orbit is written
     };
     std::map<std::string, Writer, std::less<>> writers; ///< of runs that are written to, some at the same time
@@ -81,7 +81,7 @@ struct ResultFile::State {
                         .emplace(name, Writer{*run, database.prepare(tables.insert_point()),
                                               database.prepare(tables.insert_sample()), insert(details[0]),
                                               insert(details[1]), insert(details[2]), insert(details[3]),
-                                              insert(details[4]), std::nullopt})
+                                              insert(details[4]), insert(details[5]), std::nullopt})
                         .first;
         }
         return found->second;

@@ -22,8 +22,8 @@ constexpr std::array all_kinds{
     KindOfRun{"basin", Points::attractors},      KindOfRun{"orbit", Points::one_orbit},
     KindOfRun{"equilibrium", Points::one_orbit}, KindOfRun{"continue", Points::orbits},
     KindOfRun{"curve", Points::orbits},          KindOfRun{"ladder", Points::orbits},
-    KindOfRun{"record", Points::measured},       KindOfRun{"identify", Points::measured},
-    KindOfRun{"atlas", Points::attractors},
+    KindOfRun{"torus", Points::orbits},          KindOfRun{"record", Points::measured},
+    KindOfRun{"identify", Points::measured},     KindOfRun{"atlas", Points::attractors},
 };
 
 bool kind_has(RunKind kind, Points points) {

@@ -125,6 +125,7 @@ const std::vector<DetailTable>& detail_tables() {
         {"eigenvalues", kinds_of(multiplier_columns()), false, true},
         {"minima", kinds_of(minimum_columns()), true, false},
         {"end_values", kinds_of(end_value_columns()), true, false},
+        {"circles", kinds_of(circle_columns()), true, false},
     };
     return tables;
 }

@@ -7,9 +7,10 @@
 
 namespace graze {
 
-void PointWriter::add(const std::string& part, const SpecialPoint& point, bool stable) {
+void PointWriter::add(const std::string& part, const SpecialPoint& point, bool stable,
+                      std::optional<TorusRecord> torus) {
     flush();
-    waiting_ = OrbitRecord{0, part, "", stable, point};
+    waiting_ = OrbitRecord{0, part, "", stable, point, std::nullopt, std::move(torus)};
 }
 
 void PointWriter::end(const std::string& why) {

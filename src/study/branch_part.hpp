@@ -50,7 +50,8 @@ public:
     PointWriter(const StudyRun& run, SharedFile& file, const RunnerOptions& options, RunReport& report)
         : run_(&run), file_(&file), options_(&options), report_(&report) {}
 
-    void add(const std::string& part, const SpecialPoint& point, bool stable);
+    void add(const std::string& part, const SpecialPoint& point, bool stable,
+             std::optional<TorusRecord> torus = std::nullopt);
     /// Points to come are compared with those of this earlier part, of which they may be symmetric images.
     void set_image_of(const std::string& part) { image_of_ = part; }
     /// Ends a part: its last point becomes an end point unless it is special already. @param why is added to its detail

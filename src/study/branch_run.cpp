@@ -11,6 +11,7 @@
 #include "study/ladder_run.hpp"
 #include "study/run_record.hpp"
 #include "study/start_point.hpp"
+#include "study/torus_run.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -236,6 +237,9 @@ std::optional<OrbitRecord> first_orbit(const Study& study, const StudyRun& run, 
     if (!run.start || !run_named(study, run.start->run).is_branch())
         return std::nullopt;
     const StudyRun& parent = run_named(study, run.start->run);
+    if (parent.kind == RunKind::torus)
+        throw InputError(run.start->place, fmt::format("run '{}' has tori, and no orbits to start from", parent.name),
+                         "start from a branch of orbits");
     return file.with([&](const ResultFile& results) { return orbit_to_start_from(*run.start, parent, results); });
 }
 
@@ -340,11 +344,14 @@ bool run_branch(const Study& study, const StudyRun& run, SharedFile& file, const
         return compute_orbit(study, run, system, file, first, options, writer);
     if (run.kind == RunKind::equilibrium)
         return run_equilibrium(study, run, system, file, options, report, writer);
-    if (run.kind == RunKind::ladder) {
+    if (run.kind == RunKind::ladder || run.kind == RunKind::torus) {
+        const bool ladder = run.kind == RunKind::ladder;
         if (!first)
-            throw InputError(run.start->place, fmt::format("run '{}' has no grazings", run.start->run),
+            throw InputError(run.start->place,
+                             fmt::format("run '{}' has no {}", run.start->run, ladder ? "grazings" : "torus points"),
                              "start from a run of kind \"continue\"");
-        return run_ladder(run, system, *first, writer, options);
+        return ladder ? run_ladder(run, system, *first, writer, options)
+                      : run_torus(run, system, *first, writer, options);
     }
     if (run.kind == RunKind::curve && first && run.branch().keeps_point() && first->point.type == PointType::chatter)
         return follow_chatter(run, system, first->point, writer, options);

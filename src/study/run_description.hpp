@@ -19,6 +19,10 @@ namespace graze {
 // their reader elsewhere. Stored texts are compared, so that the order of the fields must not change, and a new field
 // is written only where it differs from its default.
 
+/// Whether runs of this kind begin at a special point of another run, with its parameters.
+inline bool begins_at_special_point(RunKind kind) {
+    return kind == RunKind::ladder || kind == RunKind::torus;
+}
 /// Whether runs of orbits of this kind may begin at an initial state.
 inline bool begins_anywhere(RunKind kind) {
     return kind == RunKind::orbit || kind == RunKind::equilibrium || kind == RunKind::follow;
@@ -110,14 +114,16 @@ void describe_family(Fields& fields, Settings& branch) {
 template <class Fields, class Run>
 void describe_path(Fields& fields, Run& run, const std::vector<std::string>& parameters) {
     auto& branch = run.branch().settings;
-    const bool plane = run.kind == RunKind::curve, ladder = run.kind == RunKind::ladder;
+    const bool plane = run.kind == RunKind::curve, begins_at_point = begins_at_special_point(run.kind);
     fields.form({"along", plane ? "the two parameters, with their bounds; one may be a conserved quantity or `period`"
-                          : ladder ? "the parameter along which orbits are followed, with its bounds"
-                                   : "the parameter along which orbits are followed, with its bounds; or, along a "
-                                     "family at the same parameters, a conserved quantity or `period`"},
-                plane    ? "{ omega = [0, 3], V = [0, 1] }"
-                : ladder ? "{ V = [0, 1] }"
-                         : "{ V = [0, 1] } or \"V\"",
+                          : run.kind == RunKind::torus ? "the parameter along which tori are followed, with its bounds"
+                          : run.kind == RunKind::ladder
+                              ? "the parameter along which orbits are followed, with its bounds"
+                              : "the parameter along which orbits are followed, with its bounds; or, along a "
+                                "family at the same parameters, a conserved quantity or `period`"},
+                plane             ? "{ omega = [0, 3], V = [0, 1] }"
+                : begins_at_point ? "{ V = [0, 1] }"
+                                  : "{ V = [0, 1] } or \"V\"",
                 &read_along);
     describe_family(fields, branch);
     if (fields.has("along", !branch.family || plane))
@@ -130,7 +136,7 @@ void describe_path(Fields& fields, Run& run, const std::vector<std::string>& par
                          "`free`, fixed monitors are held in place of the point's own condition"
                        : "further parameters that vary, one for each fixed monitor; the branch ends where one of them "
                          "leaves its range. A list of names gives no ranges",
-                 !ladder},
+                 !begins_at_point},
                 "{ omega = [0.1, 10] } or [\"omega\"]", &read_free);
     fields.named("free", branch.free, parameters);
     if (fields.has("free_bounds", !branch.free_bounds.empty()))
@@ -139,7 +145,7 @@ void describe_path(Fields& fields, Run& run, const std::vector<std::string>& par
             one.optional("least", bounds.least);
             one.optional("greatest", bounds.greatest);
         });
-    fields.form({"stop", "types of points at which the branch ends", !ladder}, "[\"GR\", \"SN\"]", &read_stop);
+    fields.form({"stop", "types of points at which the branch ends", !begins_at_point}, "[\"GR\", \"SN\"]", &read_stop);
     fields.named("stop", branch.stop_at, short_names_of_points());
 }
 
@@ -148,7 +154,7 @@ void describe_continuation(Fields& fields, Run& run) {
     auto& branch = run.branch().settings;
     describe_path(fields, run, run.model.independent_parameters());
     fields.denied({"unphysical", "continue along orbits that the model itself would not follow; they are drawn faint",
-                   run.kind != RunKind::ladder},
+                   !begins_at_special_point(run.kind)},
                   "stop_when_unphysical", branch.stop_when_unphysical);
     fields.field("reorder", branch.reorder);
     fields.optional("least", branch.least);
@@ -168,7 +174,16 @@ void describe_continuation(Fields& fields, Run& run) {
     if (run.kind == RunKind::ladder)
         fields.count({"rungs", "largest number of grazings, the first one included"}, run.branch().rungs,
                      {2, most_rungs});
-    if (fields.has("grazing", run.branch().touches))
+    if (run.kind == RunKind::torus) {
+        auto& torus = run.branch().torus;
+        fields.count({"harmonics",
+                      "largest number of harmonics of the circle of a torus, beyond which it counts as not "
+                      "resolved. The work grows with its third power"},
+                     torus.harmonics, {TorusResolution::fewest_harmonics, TorusResolution::most_harmonics});
+        fields.number({"tail", "largest share of the last harmonics, beyond which further ones are taken"}, torus.tail,
+                      {TorusResolution::least_tail, TorusResolution::largest_tail});
+    }
+    if (run.kind != RunKind::torus && fields.has("grazing", run.branch().touches))
         fields.truth({"grazing", "store what becomes of orbits that touch, as `graze grazing` computes it: at "
                                  "grazings, and at all points of curves of touches"},
                      run.branch().touches);
@@ -205,7 +220,10 @@ void describe_branch(Fields& fields, Run& run) {
         fields.field("table", run.branch().table_text);
     else
         fields.field("table", text_of_table(run.branch()));
-    fields.form({"monitors", "named numbers that are computed of each orbit (the period and the maxima of the states)"},
+    fields.form({"monitors", run.kind == RunKind::torus
+                                 ? "named maxima and minima over each torus (the maxima of the states)"
+                                 : "named numbers that are computed of each orbit (the period and the maxima of the "
+                                   "states)"},
                 "{ NAME = { ... } }", &read_monitors);
     fields.list("monitors", branch.monitors, [](auto& one, auto& monitor) { describe_monitor(one, monitor); });
     fields.number(
@@ -328,7 +346,7 @@ void describe_axes(Fields& fields, Run& run, Motion& motion, Request& request) {
         });
     fields.form({"mode", "the initial mode (that of the model)", points || begins_anywhere(run.kind)}, "\"NAME\"",
                 read_apart);
-    fields.form({"set", "values of further parameters in this run", run.kind != RunKind::ladder}, "{ V = 1 }",
+    fields.form({"set", "values of further parameters in this run", !begins_at_special_point(run.kind)}, "{ V = 1 }",
                 read_apart);
     fields.named("set", run.set, run.model.independent_parameters());
     if (fields.has("draws", motion.draws > 0)) {
@@ -344,7 +362,8 @@ void describe_axes(Fields& fields, Run& run, Motion& motion, Request& request) {
              run.is_swept()
                  ? "direction of the first varied value: `both` is up, then down from where that ended"
                  : "direction of the parameter at first, since the branch turns at folds. It has no effect if "
-                   "the run starts at a point and leads onto another branch, which has directions of its own"},
+                   "the run starts at a point and leads onto another branch, which has directions of its own",
+             run.kind != RunKind::torus},
             request.direction, {"up", "down", "both"});
     if (run.is_swept())
         fields.truth(
@@ -429,7 +448,7 @@ void describe_simulated(Fields& fields, Run& run, Motion& motion, Request& reque
     fields.form({"parameters",
                  "runs of kind `identify`: what they have found takes the place of what is set (but what "
                  "the run varies)",
-                 run.kind != RunKind::ladder},
+                 !begins_at_special_point(run.kind)},
                 "\"RUN\" or [\"RUN\"]", &read_parameters);
     describe_if_given(fields, "parameters", run.parameters);
     describe_integration(fields, run, request.simulation);

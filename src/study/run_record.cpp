@@ -134,7 +134,7 @@ WrittenRun written(const StudyRun& run) {
 std::vector<std::string> direction_names(const StudyRun& run) {
     if (run.kind == RunKind::record)
         return run.record().directions;
-    if ((!run.is_swept() && !run.is_followed()) || run.kind == RunKind::ladder)
+    if ((!run.is_swept() && !run.is_followed()) || run.kind == RunKind::ladder || run.kind == RunKind::torus)
         return {""};
     switch (run.is_branch() ? run.branch().direction : run.motion().direction) {
     case SweepDirection::up:

@@ -218,7 +218,7 @@ const std::vector<std::string>& monitor_kinds() {
     return kinds;
 }
 
-std::vector<Monitor> usual_monitors(const Model& model) {
+std::vector<Monitor> usual_monitors(const Model& model, RunKind kind) {
     std::vector<Monitor> monitors;
     Monitor& period = monitors.emplace_back();
     period.name = "period";
@@ -233,6 +233,8 @@ std::vector<Monitor> usual_monitors(const Model& model) {
         }
     for (const ConservedQuantity& one : model.conserved)
         monitors.push_back(monitor_of_conserved(model, one.name));
+    if (kind == RunKind::torus)
+        std::erase_if(monitors, [](const Monitor& monitor) { return !is_extreme(monitor); });
     return monitors;
 }
 
@@ -314,11 +316,22 @@ void check_branch(const StudyReader& reader, const StudyRun& run, const TomlEntr
     if (run.kind == RunKind::ladder && (!run.start || run.start->point.empty()))
         throw InputError(entry.place, fmt::format("{} does not say at which point the ladder begins", entry.path),
                          "give start = { run = \"BRANCH\", point = \"GR1\" }");
+    if (run.kind == RunKind::torus && (!run.start || run.start->point.empty()))
+        throw InputError(entry.place, fmt::format("{} does not say at which point the tori begin", entry.path),
+                         "give start = { run = \"BRANCH\", point = \"NS1\" }");
     if (run.is_followed() && !keys.contains("along"))
         throw InputError(entry.place, fmt::format("{} does not say what is followed", entry.path),
                          run.kind == RunKind::curve
                              ? "give along = { PARAMETER = [LEAST, GREATEST], OTHER = [LEAST, GREATEST] }"
                              : "give along = { PARAMETER = [LEAST, GREATEST] }");
+    if (run.kind == RunKind::torus)
+        for (const Monitor& monitor : branch.settings.monitors)
+            if (!is_extreme(monitor) || monitor.fixed || !monitor.crossings.empty() || monitor.least ||
+                monitor.greatest)
+                reader.fail(
+                    keys.at("monitors"),
+                    fmt::format("monitor '{}' is not just a maximum or minimum, and tori have no others", monitor.name),
+                    "give { maximum = \"q\" } or { minimum = \"q\" }");
     if (!run.is_followed())
         for (const Monitor& monitor : branch.settings.monitors)
             if (monitor.fixed || !monitor.crossings.empty() || monitor.least || monitor.greatest)

@@ -162,8 +162,9 @@ void complete_identify(const StudyReader& reader, StudyRun& run, const TomlEntry
 /// @throws InputError when the runs that another one needs do not give what it needs
 void check_needs(const StudyRun& run, const Study& study);
 
-/// The monitors of branches whose study names none: the period, and the greatest value of each state.
-std::vector<Monitor> usual_monitors(const Model& model);
+/// The monitors of branches whose study names none: the period, and the greatest value of each state. Of tori those
+/// that are extremes.
+std::vector<Monitor> usual_monitors(const Model& model, RunKind kind);
 /// The keys of what monitors measure, in the order of Monitor::Kind.
 const std::vector<std::string>& monitor_kinds();
 /// Settings that follow from others, once the keys of a run of orbits have been read.

@@ -22,7 +22,7 @@ void set_standards(StudyRun& run) {
     if (run.kind == RunKind::atlas)
         run.motion().direction = SweepDirection::both;
     if (run.is_branch())
-        run.branch().settings.monitors = usual_monitors(run.model);
+        run.branch().settings.monitors = usual_monitors(run.model, run.kind);
 }
 
 namespace {

@@ -522,7 +522,7 @@ def test_a_failed_run_is_kept_with_the_error(oscillator):
 
 @pytest.mark.parametrize("function, kind", [
     (graze.ensemble, "simulate"), (graze.sweep, "sweep"), (graze.basin, "basin"), (graze.orbit, "orbit"),
-    (graze.equilibria, "equilibrium"), (graze.follow, "continue"), (graze.curve, "curve"), (graze.ladder, "ladder"), (graze.record, "record"),
+    (graze.equilibria, "equilibrium"), (graze.follow, "continue"), (graze.curve, "curve"), (graze.ladder, "ladder"), (graze.torus, "torus"), (graze.record, "record"),
     (graze.identify, "identify")])
 def test_signatures_and_help_list_all_keys(function, kind):
     known = [{"from": "from_"}.get(key["name"], key["name"]) for key in graze._graze.study_keys(kind)]

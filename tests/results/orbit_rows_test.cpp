@@ -126,6 +126,29 @@ TEST_F(OrbitRows, SlowestApproachIsThatOfAnEvent) {
     EXPECT_EQ(view.number(0), 0.25);
 }
 
+TEST_F(OrbitRows, ToriAreReadAsWritten) {
+    const Model model = load_model("impact-oscillator");
+    OrbitRecord torus = RandomOrbits(model).record(0), none = torus;
+    torus.torus = TorusRecord{0.381966, 1, 1e-10, 0.5, {{0, 0, 1.5, 0}, {0, 2, 0.25, 0}, {1, 0, -2, 3}, {1, 2, 0, 4}}};
+    none.number = 1;
+    ResultFile file(path_, ResultFile::Access::write);
+    file.begin_run(run_of(model));
+    file.add_orbit("b", torus);
+    file.add_orbit("b", none);
+    EXPECT_EQ(file.orbit("b", std::size_t{0})->torus, torus.torus);
+    EXPECT_FALSE(file.orbit("b", std::size_t{1})->torus);
+    auto rows = file.query("SELECT state, cosine FROM circles WHERE run = 'b' AND point = 0 AND harmonic = 1");
+    ASSERT_TRUE(rows.next());
+    EXPECT_EQ(rows.text(0), "x");
+    EXPECT_EQ(rows.number(1), -2);
+    const auto names = StoredRun(file, "b", {}).number_columns();
+    EXPECT_NE(std::find(names.begin(), names.end(), "rotation_number"), names.end());
+    file.flush();
+    testing::change(path_, "UPDATE circles SET state = 'nobody' WHERE position = 1");
+    const ResultFile changed(path_, ResultFile::Access::read);
+    EXPECT_EQ(changed.orbit("b", std::size_t{0})->torus->circle.size(), 3U);
+}
+
 TEST_F(OrbitRows, FindingsAtTouchesAreReadAsWritten) {
     const Model model = load_model("impact-oscillator");
     OrbitRecord lost = RandomOrbits(model).record(0), persists = lost, none = lost;

@@ -314,9 +314,9 @@ TEST(Study, MistakesAreReportedWithPlaceAndRemedy) {
              {"name = \"s\"", "s.toml:1:1: the study has no runs; add a table [runs.NAME]"},
              {"name = 3", "s.toml:1:8: name must be a string, not a number; give a string"},
              {"nme = 3", "s.toml:1:1: unknown key 'nme'; did you mean 'name'?"},
-             {head + "[runs.a]",
-              "s.toml:3:7: runs.a has no kind; give kind = \"simulate\", \"sweep\", \"basin\", "
-              "\"orbit\", \"equilibrium\", \"continue\", \"curve\", \"ladder\", \"record\", \"identify\" or \"atlas\""},
+             {head + "[runs.a]", "s.toml:3:7: runs.a has no kind; give kind = \"simulate\", \"sweep\", \"basin\", "
+                                 "\"orbit\", \"equilibrium\", \"continue\", \"curve\", \"ladder\", \"torus\", "
+                                 "\"record\", \"identify\" or \"atlas\""},
              {head + "[runs.a]\nkind = \"swep\"", "s.toml:4:8: runs.a.kind cannot be 'swep'; did you mean 'sweep'?"},
              {head + "[runs.\"a b\"]\nkind = \"sweep\"",
               "s.toml:3:7: 'a b' cannot be the name of a run; use up to 100 letters, digits, '.', '_' and '-'"},

@@ -47,6 +47,11 @@ struct Monitor {
 /// Returns the monitor of a conserved quantity. @throws InputError when the model has none of this name
 Monitor monitor_of_conserved(const Model& model, const std::string& name);
 
+/// True for a maximum or minimum along the motion.
+inline bool is_extreme(const Monitor& monitor) {
+    return monitor.kind == Monitor::Kind::maximum || monitor.kind == Monitor::Kind::minimum;
+}
+
 /// Sets the values of monitors that are multipliers, which OrbitMonitors cannot evaluate.
 /// @param multipliers largest first; the value of a monitor beyond their number is NaN
 void measure_multipliers(const std::vector<Monitor>& monitors, const std::vector<std::complex<double>>& multipliers,

@@ -19,6 +19,24 @@ struct TouchFindings {
     friend bool operator==(const TouchFindings&, const TouchFindings&) = default;
 };
 
+/// A harmonic of the circle of a torus, of one state: even * cos(2 pi harmonic turns) + odd * sin(2 pi harmonic turns).
+struct CircleTerm {
+    std::size_t harmonic = 0; ///< 0: the mean
+    std::size_t state = 0;
+    double even = 0, odd = 0;
+    friend bool operator==(const CircleTerm&, const CircleTerm&) = default;
+};
+
+/// A torus computed by a run of kind `torus`; see Torus and TorusFacts.
+struct TorusRecord {
+    double rotation = 0;       ///< rotation number, in turns per return
+    std::size_t harmonics = 0; ///< of its series
+    double tail = 0;           ///< share of the last harmonics
+    double growth = 0;         ///< mean factor per return of the slowest deviation from the torus
+    std::vector<CircleTerm> circle;
+    friend bool operator==(const TorusRecord&, const TorusRecord&) = default;
+};
+
 /// One orbit computed by a run of kind `orbit` or `continue`: a regular or special point of a branch.
 struct OrbitRecord {
     std::size_t number = 0; ///< number of the point in the run
@@ -28,6 +46,8 @@ struct OrbitRecord {
     SpecialPoint point; ///< type of the point, and its orbit as the solution
     /// Set if the orbit touches and the run asks for the map there.
     std::optional<TouchFindings> touch = std::nullopt;
+    /// Set for a torus; the orbit is then one return of a motion on it, which does not close.
+    std::optional<TorusRecord> torus = std::nullopt;
 };
 
 } // namespace graze

@@ -42,7 +42,8 @@ struct PointName {
 /// Description of a run, without its points.
 struct RunRecord {
     std::string name; ///< letters, digits, '.', '_' and '-'
-    std::string kind; ///< simulate, sweep, basin, orbit, continue, curve, ladder, record, identify, atlas
+    std::string kind; ///< simulate, sweep, basin, orbit, continue, curve, ladder, torus, record, identify,
+                      ///< atlas
     std::string model_name;
     std::string model;       ///< complete text of the model file
     std::string settings;    ///< JSON object

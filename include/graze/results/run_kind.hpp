@@ -17,6 +17,7 @@ enum class RunKind {
     follow,      ///< a branch of periodic orbits or equilibria; called "continue" in studies and results
     curve,       ///< a curve of special points in two parameters
     ladder,      ///< a sequence of grazing orbits, each found from the one before
+    torus,       ///< the tori that begin at a torus point of a branch
     record,      ///< measured records
     identify,    ///< parameters fitted to measured records
     atlas        ///< a sweep over a box of parameters, from which an exploration of all branches and curves begins
@@ -35,7 +36,7 @@ bool has_motions(RunKind kind);
 bool seeks_attractors(RunKind kind);
 /// Whether motions are carried along the first varied value, in one direction or both.
 bool is_swept(RunKind kind);
-/// Whether runs of this kind follow orbits along a branch, a curve or a ladder.
+/// Whether runs of this kind follow orbits or tori along a branch, a curve or a ladder.
 bool is_followed(RunKind kind);
 /// Whether the points of runs of this kind are periodic orbits or equilibria.
 bool is_branch(RunKind kind);

@@ -2,6 +2,7 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/branch/orbit_branch.hpp"
+#include "graze/branch/torus_branch.hpp"
 #include "graze/results/run_kind.hpp"
 #include "graze/study/motion_request.hpp"
 
@@ -11,7 +12,7 @@
 
 namespace graze {
 
-/// What runs of the kinds orbit, equilibrium, continue, curve and ladder ask for.
+/// What runs of the kinds orbit, equilibrium, continue, curve, ladder and torus ask for.
 struct BranchRequest {
     std::string signature; ///< of the first orbit; empty: any
     Place signature_place;
@@ -20,6 +21,7 @@ struct BranchRequest {
     BranchSettings settings;
     SweepDirection direction = SweepDirection::up; ///< in which the parameter changes at first
     std::size_t rungs = 8;                         ///< of ladders: number of grazings at most
+    TorusResolution torus;                         ///< of tori
     bool touches = false;                          ///< OrbitRecord::touch is computed for orbits that touch
     std::vector<StateBounds> within;               ///< box in which equilibria are searched for; empty: none
     bool every_mode = false;                       ///< search for them in all modes, not only in the initial one

@@ -1,0 +1,419 @@
+#include "graze/branch/torus_branch.hpp"
+
+#include "base/decompositions.hpp"
+#include "base/enumerator_name.hpp"
+#include "branch/resonances.hpp"
+#include "branch/torus_facts.hpp"
+#include "graze/base/input_error.hpp"
+#include "orbit/shooting.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+namespace graze {
+
+namespace {
+
+/// Corrections longer than this share of a step may lead to other tori, or to the orbit, and are rejected.
+constexpr double largest_correction = 0.5;
+void require_torus_point(const SpecialPoint& point) {
+    const std::string remedy = "start from a torus point (NS) of a branch of orbits";
+    if (point.type != PointType::torus)
+        throw InputError(
+            fmt::format("no tori begin at a point of type {} ({})", short_name(point.type), name_of(point.type)),
+            remedy);
+    const Signature& signature = point.solution.orbit.signature;
+    if (std::ranges::any_of(signature, [](const Segment& one) { return one.end == SegmentEnd::chatter; }))
+        throw InputError("tori of motions with complete chatter are not followed", remedy);
+}
+
+void require_extremes(const std::vector<Monitor>& monitors) {
+    for (const Monitor& one : monitors)
+        if (!is_extreme(one))
+            throw InputError(fmt::format("monitor '{}' has no single value on a torus", one.name),
+                             "choose a maximum or a minimum");
+}
+
+/// The multiplier of a torus point with a positive imaginary part, and its vector, in scaled active states.
+struct TurningPair {
+    std::complex<double> multiplier;
+    Eigen::VectorXcd vector;
+};
+
+TurningPair turning_pair(const Eigen::MatrixXd& derivatives) {
+    constexpr double near = 1e-3, real = 1e-6; // located points are far more accurate
+    const auto system = eigensystem(derivatives);
+    std::optional<Eigen::Index> nearest;
+    for (Eigen::Index i = 0; system && i < system->values.size(); ++i) {
+        const auto off = [&](Eigen::Index k) { return std::abs(std::abs(system->values[k]) - 1); };
+        if (system->values[i].imag() > real && (!nearest || off(i) < off(*nearest)))
+            nearest = i;
+    }
+    if (!nearest || !(std::abs(std::abs(system->values[*nearest]) - 1) < near))
+        throw InputError("the orbit has no complex pair of multipliers on the unit circle",
+                         "start from a torus point (NS) of a branch of orbits");
+    return {system->values[*nearest], system->vectors.col(*nearest)};
+}
+
+} // namespace
+
+void TorusResolution::validate() const {
+    if (harmonics < fewest_harmonics || harmonics > most_harmonics)
+        throw InputError(fmt::format("{} harmonics are out of range", harmonics),
+                         fmt::format("choose between {} and {}", fewest_harmonics, most_harmonics));
+    if (!(tail >= least_tail && tail <= largest_tail))
+        throw InputError(fmt::format("the tail {} of the harmonics is out of range", tail),
+                         fmt::format("choose between {} and {}", least_tail, largest_tail));
+}
+
+std::string_view name_of(TorusOutcome outcome) {
+    constexpr std::string_view names[] = {"going",      "no start",     "steps",          "bound",
+                                          "unphysical", "not resolved", "no convergence", "undefined"};
+    return enumerator_name(names, outcome, "");
+}
+
+class TorusBranch::Follower {
+public:
+    Follower(const System& system, const SpecialPoint& point, const BranchSettings& settings,
+             const TorusResolution& resolution)
+        : simulation_(system, {}, {}, {.tolerance = settings.orbit.tolerance}), settings_(settings),
+          resolution_(resolution) {
+        require_torus_point(point);
+        resolution.validate();
+        settings.validate(system.model());
+        require_extremes(settings.monitors);
+        if (settings.family || !settings.free.empty())
+            throw InputError("tori are followed in one parameter, and not along a family", "name one parameter alone");
+        settings_.continuation.accuracy = std::max(settings.continuation.accuracy, settings.orbit.accuracy);
+        const double at = point.solution.orbit.parameters[settings.parameter.place()];
+        if (is_beyond(at))
+            throw InputError(fmt::format("the torus point lies at {:.10g}, outside the bounds", at),
+                             "widen the bounds of the parameter");
+        set_up(point.solution.orbit);
+        monitors_ = std::make_unique<OrbitMonitors>(system, point.solution.orbit.signature, settings.monitors,
+                                                    settings.orbit.tolerance);
+    }
+
+    bool start();
+    bool step();
+    const TorusPoint& point() const { return point_; }
+    TorusOutcome outcome() const { return outcome_; }
+    const std::string& detail() const { return detail_; }
+
+private:
+    bool is_beyond(double parameter) const {
+        return (settings_.least && parameter < *settings_.least) ||
+               (settings_.greatest && parameter > *settings_.greatest);
+    }
+    bool end(TorusOutcome outcome, std::string detail) {
+        outcome_ = outcome;
+        detail_ = std::move(detail);
+        return false;
+    }
+
+    void set_up(const Orbit& orbit);
+    bool refine();
+    std::optional<ContinuationPoint> along(double distance, const std::vector<double>& guess = {});
+    std::optional<ContinuationPoint> resolved_along(double distance);
+    std::optional<ContinuationPoint> next_point(double& length);
+    bool end_without_step();
+    TorusPoint described(const ContinuationPoint& at) const;
+    bool end_at_bound(double length, double beyond);
+    bool end_at_grazing(double length, std::string reason);
+    bool take(const ContinuationPoint& at, TorusPoint next);
+
+    Simulation simulation_;
+    BranchSettings settings_;
+    TorusResolution resolution_;
+    TorusSetting setting_;
+    std::unique_ptr<OrbitMonitors> monitors_;
+    std::shared_ptr<TorusProblem> problem_;
+    /// Unknowns from which the next step is made, its direction, and the circle to which the phase condition refers.
+    std::vector<double> origin_, direction_, reference_;
+    double next_length_ = 0, first_parameter_ = 0;
+    bool unresolved_ = false; ///< the last attempt needed more harmonics than are allowed
+    TorusPoint point_;
+    TorusOutcome outcome_ = TorusOutcome::no_start;
+    std::string detail_;
+};
+
+/// Prepares the circles along the vector of the multipliers.
+void TorusBranch::Follower::set_up(const Orbit& orbit) {
+    constexpr std::size_t harmonics = 3; // at first: only strong resonances make these equations singular
+    const double range = settings_.least && settings_.greatest ? *settings_.greatest - *settings_.least : 0;
+    Shooting shooting(simulation_, orbit, {settings_.parameter}, {range});
+    OrbitEvaluation at = shooting.evaluation();
+    if (!shooting.evaluate(shooting.unknowns_of(orbit), at))
+        throw InputError("the orbit cannot be followed: " + at.problem, "choose another torus point");
+    setting_.active = at.active;
+    setting_.scales = at.scales.head(index(orbit.starts[0].size()));
+    constexpr double share = 0.5; // of the range
+    setting_.parameter_scale = std::max(at.scales[index(shooting.layout().parameter(0))], share * range);
+    setting_.parameter = settings_.parameter;
+    setting_.back = std::make_shared<SignatureReturn>(simulation_, orbit, settings_.parameter, setting_.scales);
+    const double parameter = first_parameter_ = orbit.parameters[settings_.parameter.place()];
+    const auto image = setting_.back->follow(orbit.starts[0], parameter, orbit.durations);
+    if (!image)
+        throw InputError("the orbit cannot be followed: " + setting_.back->problem(), "choose another torus point");
+    const Eigen::VectorXd scales = setting_.scales(setting_.active);
+    const TurningPair pair = turning_pair(scales.cwiseInverse().asDiagonal() *
+                                          image->derivatives(setting_.active, setting_.active) * scales.asDiagonal());
+    problem_ = std::make_shared<TorusProblem>(setting_, std::min(harmonics, resolution_.harmonics));
+    origin_.assign(problem_->unknowns(), 0.0);
+    direction_ = origin_;
+    for (std::size_t a = 0; a < setting_.active.size(); ++a) {
+        origin_[problem_->place_of(0, a)] = orbit.starts[0][setting_.active[a]];
+        direction_[problem_->place_of(1, a)] = scales[index(a)] * pair.vector[index(a)].real();
+        direction_[problem_->place_of(2, a)] = -scales[index(a)] * pair.vector[index(a)].imag();
+    }
+    origin_[problem_->rotation_place()] = std::arg(pair.multiplier) / (2 * std::numbers::pi);
+    origin_[problem_->parameter_place()] = parameter;
+    reference_ = direction_;
+}
+
+/// Takes more harmonics for the next step. @return false when no more are allowed
+bool TorusBranch::Follower::refine() {
+    const std::size_t now = problem_->harmonics(),
+                      more = std::min(now + std::max<std::size_t>(4, now / 2), resolution_.harmonics);
+    if (more == now)
+        return false;
+    auto finer = std::make_shared<TorusProblem>(setting_, more);
+    finer->take_durations(*problem_);
+    finer->set_parameter_scale(problem_->scales()[problem_->parameter_place()]);
+    for (std::vector<double>* numbers : {&origin_, &direction_, &reference_})
+        *numbers = finer->extended(*numbers);
+    problem_ = std::move(finer);
+    return true;
+}
+
+/// Returns the torus at a distance from the origin of the step, in the plane across its direction.
+/// @param guess in that plane; empty: the point along the direction
+std::optional<ContinuationPoint> TorusBranch::Follower::along(double distance, const std::vector<double>& guess) {
+    Continuation there(problem_, settings_.continuation);
+    problem_->accept(reference_);
+    std::vector<double> from = guess.empty() ? origin_ : guess;
+    if (!guess.empty())
+        entries_of(from) -= distance / problem_->length_of(direction_) * vector_of(direction_);
+    if (!there.start_along(from, direction_, distance))
+        return std::nullopt;
+    ContinuationPoint point = there.point();
+    std::vector<double> off = point.u;
+    entries_of(off) -= vector_of(origin_) + distance / problem_->length_of(direction_) * vector_of(direction_);
+    off[problem_->rotation_place()] = 0; // not determined by the orbit without a torus
+    if (!(problem_->length_of(off) <= largest_correction * distance))
+        return std::nullopt;
+    point.arclength = point_.arclength + distance;
+    return point;
+}
+
+/// The same with as many harmonics as it needs.
+std::optional<ContinuationPoint> TorusBranch::Follower::resolved_along(double distance) {
+    unresolved_ = false;
+    auto there = along(distance);
+    while (there && problem_->tail_of(there->u) > resolution_.tail) {
+        unresolved_ = !refine();
+        there = unresolved_ ? std::nullopt : along(distance, problem_->extended(there->u));
+    }
+    return there;
+}
+
+TorusPoint TorusBranch::Follower::described(const ContinuationPoint& at) const {
+    problem_->evaluate(at.u);
+    TorusPoint point;
+    point.torus = problem_->torus_of(at.u);
+    point.facts = facts_of(*problem_, at.u, simulation_);
+    if (point.facts.admissible)
+        point.monitors = extremes_of(*problem_, at.u, *monitors_);
+    point.motion = problem_->images().front().motion;
+    point.parameter = at.u[problem_->parameter_place()];
+    point.arclength = at.arclength;
+    point.stable = point.facts.growth < 1;
+    point.iterations = at.iterations;
+    return point;
+}
+
+bool TorusBranch::Follower::take(const ContinuationPoint& at, TorusPoint next) {
+    next.passed = resonances_between(origin_[problem_->rotation_place()], next.torus.rotation);
+    point_ = std::move(next);
+    origin_ = reference_ = at.u;
+    direction_ = at.tangent;
+    // A parameter that is zero at the orbit has the size of its change.
+    const double change = std::abs(point_.parameter - first_parameter_);
+    problem_->set_parameter_scale(
+        std::max({problem_->scales()[problem_->parameter_place()], std::abs(point_.parameter), change}));
+    return true;
+}
+
+bool TorusBranch::Follower::start() {
+    constexpr double turned = 0.02; // change of the rotation number that a small torus does not exceed
+    const double first = settings_.continuation.first_step;
+    for (const double share : {1.0, 2.0, 4.0, 8.0, 16.0, 0.5, 0.25, 0.125}) {
+        const auto there = resolved_along(share * first);
+        const std::size_t place = problem_->rotation_place();
+        if (!there || !(std::abs(there->u[place] - origin_[place]) < turned))
+            continue;
+        TorusPoint small = described(*there);
+        if (!small.facts.admissible)
+            return end(TorusOutcome::no_start, small.facts.reason);
+        if (is_beyond(small.parameter))
+            return end(TorusOutcome::no_start, "tori are on the other side of the bound");
+        next_length_ = share * first;
+        outcome_ = TorusOutcome::going;
+        return take(*there, std::move(small));
+    }
+    std::string why = "Newton's method did not converge to small tori";
+    if (const auto strong = resonance_near(origin_[problem_->rotation_place()], 0.01); strong && strong->is_strong())
+        why += fmt::format("; the point is near the strong resonance {}/{}", strong->numerator, strong->denominator);
+    return end(TorusOutcome::no_start, why);
+}
+
+/// Returns the next torus, with a shorter step where Newton's method does not converge or the branch bends.
+std::optional<ContinuationPoint> TorusBranch::Follower::next_point(double& length) {
+    const ContinuationOptions& options = settings_.continuation;
+    constexpr std::size_t good_iterations = 3;
+    // A torus that is about to break down is not approached closer than this share of the largest step.
+    const double closest = 1e-3 * options.largest_step;
+    for (length = std::min(next_length_, options.largest_step); length >= options.smallest_step; length *= 0.5) {
+        const auto there = resolved_along(length);
+        if (!there && unresolved_ && length < closest)
+            break;
+        if (!there)
+            continue;
+        const double cosine = problem_->product(there->tangent, direction_) /
+                              (problem_->length_of(there->tangent) * problem_->length_of(direction_)),
+                     angle = std::acos(std::clamp(cosine, -1.0, 1.0));
+        if (angle > options.largest_angle && length > 2 * options.smallest_step)
+            continue;
+        const double growth = there->iterations <= good_iterations ? 2 : there->iterations <= 5 ? 1 : 0.5;
+        next_length_ = length * std::clamp(angle > 0 ? 0.7 * options.largest_angle / angle : growth, 0.5, growth);
+        return there;
+    }
+    return std::nullopt;
+}
+
+bool TorusBranch::Follower::end_without_step() {
+    std::string near;
+    if (const auto resonance = resonance_near(point_.torus.rotation, 2e-3))
+        near = fmt::format("; the rotation number is near {}/{}, where the motion may lock", resonance->numerator,
+                           resonance->denominator);
+    if (unresolved_)
+        return end(TorusOutcome::not_resolved,
+                   fmt::format("the torus needs more than {} harmonics{}", problem_->harmonics(), near));
+    std::vector<double> predicted = origin_;
+    entries_of(predicted) +=
+        settings_.continuation.smallest_step / problem_->length_of(direction_) * vector_of(direction_);
+    if (!problem_->evaluate(predicted))
+        return end(TorusOutcome::undefined, problem_->problem());
+    return end(TorusOutcome::no_convergence, "Newton's method does not converge" + near);
+}
+
+bool TorusBranch::Follower::step() {
+    if (outcome_ != TorusOutcome::going)
+        return false;
+    if (point_.step >= settings_.steps)
+        return end(TorusOutcome::steps, "");
+    const std::size_t number = point_.step + 1;
+    double length = 0;
+    const auto there = next_point(length);
+    if (!there)
+        return end_without_step();
+    const double parameter = there->u[problem_->parameter_place()];
+    bool made = false;
+    if (is_beyond(parameter)) {
+        made = end_at_bound(length, parameter);
+    } else if (TorusPoint next = described(*there); next.facts.admissible) {
+        made = take(*there, std::move(next));
+    } else {
+        made = end_at_grazing(length, next.facts.reason);
+    }
+    if (made)
+        point_.step = number;
+    return made;
+}
+
+/// Moves to the bound that the step has crossed, by the method of false position with halved weights (Illinois).
+bool TorusBranch::Follower::end_at_bound(double length, double beyond) {
+    const double bound = settings_.least && beyond < *settings_.least ? *settings_.least : *settings_.greatest;
+    const double enough = 1e-12 * std::max(std::abs(bound), setting_.parameter_scale);
+    double low = 0, high = length, off_low = origin_[problem_->parameter_place()] - bound, off_high = beyond - bound;
+    int side = 0;
+    for (int iteration = 0; iteration < 60; ++iteration) {
+        const double middle = (low * off_high - high * off_low) / (off_high - off_low);
+        const auto there = along(middle);
+        if (!there)
+            break;
+        const double off = there->u[problem_->parameter_place()] - bound;
+        if (std::abs(off) <= enough) {
+            TorusPoint next = described(*there);
+            if (!next.facts.admissible)
+                return end_at_grazing(middle, next.facts.reason);
+            next.parameter = bound;
+            for (std::vector<double>* parameters : {&next.torus.parameters, &next.motion.parameters})
+                (*parameters)[settings_.parameter.place()] = bound;
+            outcome_ = TorusOutcome::bound;
+            return take(*there, std::move(next));
+        }
+        const bool above = (off > 0) == (off_high > 0);
+        (above ? high : low) = middle;
+        (above ? off_high : off_low) = off;
+        if (above == (side > 0) && side != 0)
+            (above ? off_low : off_high) *= 0.5;
+        side = above ? 1 : -1;
+    }
+    return end(TorusOutcome::no_convergence, "the torus at the bound was not found");
+}
+
+/// Moves to the last torus from all angles of which the model makes the same segments.
+bool TorusBranch::Follower::end_at_grazing(double length, std::string reason) {
+    constexpr double precision = 1e-8; // in scaled unknowns
+    std::optional<std::pair<ContinuationPoint, TorusPoint>> last;
+    double low = 0, high = length;
+    while (high - low > precision) {
+        const double middle = 0.5 * (low + high);
+        const auto there = along(middle);
+        if (!there) {
+            high = middle;
+            continue;
+        }
+        TorusPoint one = described(*there);
+        if (!one.facts.admissible) {
+            reason = one.facts.reason;
+            high = middle;
+            continue;
+        }
+        last = {*there, std::move(one)};
+        low = middle;
+    }
+    end(TorusOutcome::unphysical, "the torus grazes: " + reason);
+    return last && take(last->first, std::move(last->second));
+}
+
+TorusBranch::TorusBranch(const System& system, const SpecialPoint& point, const BranchSettings& settings,
+                         const TorusResolution& resolution)
+    : follower_(std::make_unique<Follower>(system, point, settings, resolution)) {}
+TorusBranch::~TorusBranch() = default;
+TorusBranch::TorusBranch(TorusBranch&&) noexcept = default;
+
+bool TorusBranch::start() {
+    return follower_->start();
+}
+bool TorusBranch::step() {
+    return follower_->step();
+}
+const TorusPoint& TorusBranch::point() const {
+    return follower_->point();
+}
+TorusOutcome TorusBranch::outcome() const {
+    return follower_->outcome();
+}
+const std::string& TorusBranch::detail() const {
+    return follower_->detail();
+}
+
+} // namespace graze
