@@ -9,6 +9,8 @@
 #include "orbit/certify.hpp"
 #include "orbit/eigen_index.hpp"
 #include "orbit/newton.hpp"
+#include "orbit/orbit_flow.hpp"
+#include "orbit/segment_arcs.hpp"
 #include "orbit/shooting.hpp"
 
 #include <Eigen/Core>
@@ -125,6 +127,48 @@ void unfold(Model& model, const Unfolding& unfolding) {
                 model.modes[mode].rates[i] = model.modes[mode].rates[i] + symbol * own;
 }
 
+/// Returns states along an orbit, inside its smooth arcs.
+std::vector<StateInMode> states_along(const System& system, const Orbit& orbit, double tolerance) {
+    constexpr int count = 16; // of each arc
+    const Simulation simulation(system, {}, {}, integration(tolerance));
+    SegmentArcsFinder arcs_of(simulation);
+    ModeFlow flow = flow_of(simulation);
+    flow.set_parameters(orbit.parameters);
+    std::vector<StateInMode> result;
+    for (std::size_t s = 0; s < orbit.segments(); ++s) {
+        const std::size_t mode = orbit.signature[s].mode;
+        const SegmentArcs arcs = arcs_of(orbit, s);
+        for (std::size_t i = 0; i < arcs.starts.size(); ++i) {
+            std::vector<double> state = arcs.starts[i];
+            for (int k = 0; k < count; ++k) {
+                if (flow.run(mode, state, arcs.durations[i] / (count + 1)) != ModeFlow::Ending::done)
+                    break;
+                result.push_back({mode, state});
+            }
+        }
+    }
+    return result;
+}
+
+constexpr const char* if_not_conserved = "choose parameters at which it is, or correct the declaration";
+
+/// Refuses what is followed or held as conserved, and is not, along an orbit. The equations would have a solution: the
+/// orbit belongs to a family of whatever its motion does conserve.
+void require_conserved(const System& system, const BranchSettings& settings, const Orbit& orbit) {
+    const Model there = with_parameters(system.model(), orbit.parameters);
+    std::vector<StateInMode> motion;
+    for (const Monitor& monitor : settings.monitors) {
+        const bool is_coordinate = settings.family && &monitor == &settings.monitors.back();
+        const auto place = find_named(there.conserved, monitor.name);
+        if (monitor.kind != Monitor::Kind::conserved || !(monitor.fixed || is_coordinate) || !place)
+            continue;
+        if (motion.empty())
+            motion = states_along(system, orbit, settings.orbit.tolerance);
+        if (const std::string why = why_not_conserved_along(there, *place, motion); !why.empty())
+            throw InputError(why, if_not_conserved);
+    }
+}
+
 /// Returns the orbit of a family that is nearest to a candidate. @param count number of directions that the equations
 /// leave undetermined, at least @param detail set to the reason where there is none; empty if the orbit stands alone
 std::optional<Orbit> nearest_member(const System& system, const Orbit& candidate, const OrbitOptions& options,
@@ -162,7 +206,7 @@ void require_no_family(const BranchSettings& settings) {
 [[noreturn]] void refuse(const Model& model, const FamilyCoordinate& family, const std::string& why_none) {
     for (std::size_t i = 0; i < model.conserved.size(); ++i)
         if (const std::string why = why_not_conserved(model, i); !why.empty())
-            throw InputError(why, "choose parameters at which it is, or correct the declaration");
+            throw InputError(why, if_not_conserved);
     if (!why_none.empty())
         throw InputError(fmt::format("no orbit of a family was found: {}", why_none), "start nearer to an orbit");
     throw InputError(
@@ -274,6 +318,7 @@ std::optional<Family> Family::of(const System& system, const Orbit& candidate, c
     complete_settings(unfolded, system.model(), last_parameters(model, unfoldings.size()));
     const System unfolded_system(model);
     hold_what_is_left(unfolded, unfolded_system, *start);
+    require_conserved(system, unfolded, *start);
     Family family(unfolded_system, std::move(unfolded), system.model().independent_parameters().size(),
                   settings.monitors.size());
     family.settings_.validate(family.system_.model());

@@ -12,8 +12,15 @@ namespace graze {
 
 namespace {
 
-/// A knot is passed by this many units of round-off of the argument.
+/// A knot is passed by this many units of round-off of the argument, or of the narrower piece beside it.
 constexpr double units_passed = 8;
+
+/// Returns the width of the narrower of the two pieces that meet at a knot.
+double spacing_at(const PieceTable& table, double knot) {
+    const PieceTable::Piece below = table.piece_at(std::nextafter(knot, -std::numeric_limits<double>::infinity())),
+                            above = table.piece_at(knot);
+    return std::min(below.to - below.from, above.to - above.from);
+}
 
 } // namespace
 
@@ -63,7 +70,9 @@ double TableSteps::limit(std::size_t mode, std::span<const Series> series, doubl
             const double way = end == piece.from ? 1 : -1;
             for (std::size_t k = 0; k < argument_.size(); ++k)
                 distance_[k] = way * (k == 0 ? argument_[0] - end : argument_[k]);
-            const double margin = units_passed * (bounds_[a] + epsilon * (std::abs(argument_[0]) + std::abs(end)));
+            // Beside a knot at zero, the argument's own size would vanish with the distance.
+            const double scale = std::abs(argument_[0]) + std::abs(end) + spacing_at(table, end);
+            const double margin = units_passed * (bounds_[a] + epsilon * scale);
             if (table.is_last(end) && distance_[0] < -0.5 * margin && falls_at_once())
                 return std::numeric_limits<double>::quiet_NaN();
             reach = time_to_end(margin, reach, table.is_smooth());

@@ -4,6 +4,7 @@
 #include "graze/model/conserved.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "model/check_symmetry.hpp"
+#include "model/coefficients.hpp"
 #include "model/model_drawing.hpp"
 #include "model/model_expressions.hpp"
 
@@ -42,6 +43,7 @@ public:
         check_jumps();
         check_transitions();
         check_start();
+        check_coefficients();
         if (model_.drawing && !scene_limits(model_))
             warn_of("drawing",
                     "at these parameters the limits of the drawing are not finite, or not in order: it is not "
@@ -49,7 +51,10 @@ public:
         for (std::string& warning : symmetry_warnings(model_))
             warnings_.push_back({"", std::move(warning)});
         for (std::size_t i = 0; i < model_.conserved.size(); ++i)
-            if (std::string why = why_not_conserved(model_, i); !why.empty())
+            if (std::string none = why_no_first_integral(model_, i); !none.empty())
+                warnings_.push_back(
+                    {"", none + "; give an expression in states that no motion changes, or remove the declaration"});
+            else if (std::string why = why_not_conserved(model_, i); !why.empty())
                 warnings_.push_back({"", why + "; give this mode its own expression in `modes`, set what loses or "
                                                "gains to zero, such as damping, or remove the declaration"});
         return std::move(warnings_);
@@ -203,6 +208,19 @@ private:
                         "the function the other sign, or begin where it is positive",
                         event.name, values[i]);
         }
+    }
+
+    /// Coefficients that depend on parameters or states may be out of their range at some values only.
+    void check_coefficients() {
+        const std::vector<Coefficient> all = coefficients_of(model_);
+        std::vector<Expression> expressions;
+        for (const Coefficient& one : all)
+            expressions.push_back(one.value);
+        const std::vector<double> values = at_start(expressions);
+        for (std::size_t i = 0; i < all.size(); ++i)
+            if (!all[i].allows(values[i]))
+                warn_of(all[i].part(), "in the initial state {} is {}: it should be {}", all[i].what,
+                        unsigned_nan(values[i]), all[i].allowed());
     }
 
     /// Returns the definition or dependent parameter in which a value first becomes non-finite: its own inputs are

@@ -70,7 +70,28 @@ public:
         }
     }
 
+    /// Says that the expressions are the same at all states.
+    std::string why_constant() const {
+        for (const Expression& value : values_)
+            for (const Expression& derivative : jacobian({&value, 1}, model_.state_symbols()))
+                if (!derivative.is_number(0))
+                    return "";
+        return fmt::format("'{}' is no first integral: it has the same value at all states", name_);
+    }
+    /// Says why the expressions are no quantity that could be conserved. The initial state is one of its own mode only.
+    std::string why_none() const {
+        const std::size_t mode = model_.initial_mode;
+        std::string place;
+        const std::string some = first_of([&](const State& state) -> std::string {
+            place = at(state);
+            return std::isfinite(value(mode, state)) ? "a number" : "";
+        });
+        return some.empty() ? never_a_number(mode, place) : why_constant();
+    }
+
     std::string why() {
+        if (std::string why = why_none(); !why.empty())
+            return why;
         for (std::size_t mode = 0; mode < model_.modes.size(); ++mode)
             if (std::string why = changed_in(mode); !why.empty())
                 return why;
@@ -83,8 +104,46 @@ public:
         return "";
     }
 
+    /// The same along a motion. Its largest terms measure the rate everywhere, since all of them vanish where it rests.
+    std::string why_along(std::span<const StateInMode> motion) const {
+        std::vector<std::optional<Function>> rates(model_.modes.size());
+        const StateInMode* worst = nullptr;
+        double rate = 0, size = 0;
+        std::vector<const StateInMode*> undefined(model_.modes.size());
+        std::vector<bool> defined(model_.modes.size());
+        for (const StateInMode& one : motion) {
+            if (!rates[one.mode])
+                rates[one.mode] = Function(inputs_, rate_terms(one.mode));
+            const auto [sum, terms] = sums_of((*rates[one.mode])(concatenated(one.state, parameters_)));
+            if (!std::isfinite(terms) || !std::isfinite(value(one.mode, one.state))) {
+                undefined[one.mode] = &one;
+                continue;
+            }
+            defined[one.mode] = true;
+            size = std::max(size, terms);
+            if (worst == nullptr || std::abs(sum) > std::abs(rate)) {
+                worst = &one;
+                rate = sum;
+            }
+        }
+        for (std::size_t mode = 0; mode < undefined.size(); ++mode)
+            if (undefined[mode] != nullptr && !defined[mode])
+                return never_a_number(mode, at(undefined[mode]->state));
+        return worst != nullptr && std::abs(rate) > unchanged_share * size ? changes_at(worst->mode, rate, worst->state)
+                                                                           : "";
+    }
+
 private:
     using State = std::vector<double>;
+
+    std::string never_a_number(std::size_t mode, const std::string& place) const {
+        return fmt::format("'{}' is no first integral: in mode '{}' it is not a number (as at {})", name_,
+                           model_.modes[mode].name, place);
+    }
+    std::string changes_at(std::size_t mode, double rate, const State& state) const {
+        return fmt::format("'{}' is not conserved: in mode '{}' it changes at the rate {:.4g} (at {})", name_,
+                           model_.modes[mode].name, rate, at(state));
+    }
 
     /// Calls a function with states around the initial one until it returns a text.
     template <class Visit>
@@ -109,23 +168,27 @@ private:
     }
 
     /// The rate is a sum over states of products of a derivative and a rate, whose terms measure it.
-    std::string changed_in(std::size_t mode) {
+    std::vector<Expression> rate_terms(std::size_t mode) const {
         const std::vector<Expression> states = model_.state_symbols();
-        const std::vector<Expression>& rates = rates_[mode];
         std::vector<Expression> terms = jacobian({&values_[mode], 1}, states);
         for (std::size_t i = 0; i < states.size(); ++i)
-            terms[i] = terms[i] * rates[i];
-        const Function all(inputs_, terms);
+            terms[i] = terms[i] * rates_[mode][i];
+        return terms;
+    }
+    /// Returns the sum of terms, and that of their sizes.
+    static std::pair<double, double> sums_of(const std::vector<double>& terms) {
+        double sum = 0, size = 0;
+        for (const double term : terms) {
+            sum += term;
+            size += std::abs(term);
+        }
+        return {sum, size};
+    }
+    std::string changed_in(std::size_t mode) const {
+        const Function all(inputs_, rate_terms(mode));
         return first_of([&](const State& state) -> std::string {
-            double sum = 0, size = 0;
-            for (const double term : all(concatenated(state, parameters_))) {
-                sum += term;
-                size += std::abs(term);
-            }
-            if (!std::isfinite(size) || std::abs(sum) <= unchanged_share * size)
-                return "";
-            return fmt::format("'{}' is not conserved: in mode '{}' it changes at the rate {:.4g} (at {})", name_,
-                               model_.modes[mode].name, sum, at(state));
+            const auto [sum, size] = sums_of(all(concatenated(state, parameters_)));
+            return std::isfinite(size) && std::abs(sum) > unchanged_share * size ? changes_at(mode, sum, state) : "";
         });
     }
 
@@ -291,6 +354,16 @@ const Expression* conserved_in(const ConservedQuantity& conserved, std::string_v
 
 std::string why_not_conserved(const Model& model, std::size_t conserved) {
     return ConservedCheck(model, model.conserved.at(conserved)).why();
+}
+
+std::string why_no_first_integral(const Model& model, std::size_t conserved) {
+    return ConservedCheck(model, model.conserved.at(conserved)).why_none();
+}
+
+std::string why_not_conserved_along(const Model& model, std::size_t conserved, std::span<const StateInMode> motion) {
+    const ConservedCheck check(model, model.conserved.at(conserved));
+    std::string why = check.why_along(motion);
+    return why.empty() ? check.why_constant() : why;
 }
 
 Model with_parameters(Model model, std::span<const double> parameters) {

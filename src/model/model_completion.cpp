@@ -2,6 +2,7 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/symbolic/transform.hpp"
+#include "model/coefficients.hpp"
 #include "model/contact_modes.hpp"
 #include "model/model_expressions.hpp"
 #include "model/model_validate.hpp"
@@ -253,6 +254,7 @@ void complete_model(Model& model, const Places& places) {
     Model made = model; // the given one stays as it is if this fails
     validate_declarations(made, places);
     check_contacts(made, places);
+    check_coefficients(made, places);
     name_derived_modes(made, places);
     made.declared = std::make_shared<const DeclaredParts>(parts_to_keep(made));
     complete_frictions(made, places, rubbing_modes(made));

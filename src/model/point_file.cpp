@@ -164,10 +164,13 @@ std::string path_inside(const std::string& folder, const std::string& file) {
     std::error_code error;
     const fs::path within = fs::canonical(folder.empty() ? fs::path(".") : fs::path(folder), error);
     const fs::path path = fs::path(folder) / given;
-    const fs::path real = error ? fs::path() : fs::weakly_canonical(path, error);
+    const fs::path real = error ? fs::path() : fs::weakly_canonical(within / given, error);
     const fs::path relative = real.lexically_relative(within);
     if (error || given.empty() || given.is_absolute() || relative.empty() || *relative.begin() == "..")
         throw InputError(fmt::format("'{}' is not inside the folder of the model", file),
+                         "put the table beside the model, and give its path from there");
+    if (!fs::exists(real, error))
+        throw InputError(fmt::format("the file '{}' does not exist", file),
                          "put the table beside the model, and give its path from there");
     return path.string();
 }

@@ -9,7 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
+#include <vector>
 
 namespace graze::conserved_test {
 
@@ -71,6 +73,42 @@ Model runner(const std::string& energy) {
                       "next = 'stance'\n[[transitions]]\nmode = 'stance'\nevent = 'takeoff'\nlabel = 'takeoff'\n"
                       "next = 'flight'\n[initial]\nmode = 'flight'\n[conserved.energy]\n" +
                       energy);
+}
+
+TEST(Conserved, ConstantsAndWhatIsNeverANumberAreNone) {
+    for (const std::string text : {"3", "e", "x - x"})
+        EXPECT_NE(why_not_conserved(with_stop("energy = '" + text + "'"), 0)
+                      .find("'energy' is no first integral: it has the same value at all states"),
+                  std::string::npos)
+            << text;
+    EXPECT_NE(why_no_first_integral(with_stop("energy = 'sqrt(-1 - x^2)'"), 0)
+                  .find("'energy' is no first integral: in mode 'free' it is not a number (as at x = "),
+              std::string::npos);
+    EXPECT_EQ(why_no_first_integral(with_stop("energy = 'sqrt(x)'"), 0), "") << "a number at some states";
+    // In a mode that is far from the initial state it need not be a number around that.
+    const std::string far = "value = '(vx^2 + vy^2)/2 + y'\nmodes = { stance = 'sqrt(-100 - y)' }";
+    EXPECT_EQ(why_no_first_integral(runner(far), 0), "");
+    bool warned = false;
+    for (const ModelWarning& warning : located_warnings(with_stop("energy = '3'")))
+        warned = warned || warning.text.find("it has the same value at all states; give") != std::string::npos;
+    EXPECT_TRUE(warned);
+}
+
+TEST(Conserved, AlongAMotionOnlyItsOwnStatesCount) {
+    // The motion x = sin(t), v = cos(t) from 0.2 to 2.6, where x is positive.
+    std::vector<StateInMode> motion;
+    for (int i = 1; i < 14; ++i)
+        motion.push_back({0, {std::sin(0.2 * i), std::cos(0.2 * i), 0}});
+    const auto why = [&](const std::string& energy) {
+        return why_not_conserved_along(with_stop("energy = '" + energy + "'", "e = 0.9\nzeta = 0"), 0, motion);
+    };
+    EXPECT_EQ(why("v^2/2 + x^2/2"), "") << "the impact is not part of the motion";
+    EXPECT_EQ(why("v^2/2 + sqrt(x)^4/2"), "") << "negative x are not either";
+    EXPECT_NE(why("v^2/2 + x^2/3").find("'energy' is not conserved: in mode 'free' it changes at the rate"),
+              std::string::npos);
+    EXPECT_NE(why("v^2/2 + x^2/2 + 1e-6*x").find("in mode 'free' it changes"), std::string::npos);
+    EXPECT_NE(why("sqrt(-x)").find("it is not a number"), std::string::npos);
+    EXPECT_NE(why("3").find("the same value at all states"), std::string::npos);
 }
 
 TEST(Conserved, MayHaveAnExpressionOfItsOwnInAMode) {

@@ -140,6 +140,8 @@ TEST_F(ModelTables, FilesAreInsideTheFolderOfTheModel) {
     EXPECT_THAT(mistake("file = 'link.csv'"),
                 StartsWith("model.toml:3:21: 'link.csv' is not inside the folder of the model"));
     EXPECT_THAT(mistake("file = ''"), HasSubstr("is not inside the folder of the model"));
+    EXPECT_THAT(mistake("file = 'absent.csv'"), StartsWith("model.toml:3:21: the file 'absent.csv' does not exist"));
+    EXPECT_THAT(mistake("file = 'no/folder/f.csv'"), HasSubstr("the file 'no/folder/f.csv' does not exist"));
     // A text that is not in a file has no folder.
     EXPECT_THROW(parse_model(model_with("file = 'f.csv'"), "f.toml"), InputError);
 }

@@ -114,6 +114,24 @@ TEST_F(FamilyRun, SaysWhatCannotBeFollowed) {
         testing::message_of([&] { problem("along = { energy = [0, 1] }\nmonitors = { a = { conserved = \"b\" } }"); }),
         HasSubstr("the model has no conserved quantity 'b'"));
     EXPECT_THAT(problem("along = { energy = [1, 2] }"), HasSubstr("lies beyond its bound"));
+    // A wrong declaration is followed neither along it nor held at its value: the motion conserves another energy.
+    for (const std::string wrong : {"v^2/2 + k*x^2/3 + x^4/4", "v^2/2"}) {
+        std::string model = spring;
+        const std::string right = "v^2/2 + k*x^2/2 + x^4/4";
+        folder_.write("model.toml", model.replace(model.find(right), right.size(), wrong));
+        for (const std::string along : {"along = { energy = [0, 1] }", "along = { k = [0.5, 1] }"})
+            EXPECT_THAT(problem(along), HasSubstr("'energy' is not conserved: in mode 'free' it changes at the rate"));
+        EXPECT_EQ(problem("along = { period = [5, 7] }\ndirection = \"up\""), "");
+    }
+    for (const auto& [none, told] :
+         {std::pair("3", "the same value at all states"), std::pair("k", "the same value at all states"),
+          std::pair("sqrt(-1 - x^2)", "in mode 'free' it is not a number")}) {
+        std::string model = spring;
+        const std::string right = "v^2/2 + k*x^2/2 + x^4/4";
+        folder_.write("model.toml", model.replace(model.find(right), right.size(), none));
+        EXPECT_THAT(problem("along = { energy = [0, 1] }"), HasSubstr(told)) << none;
+    }
+    folder_.write("model.toml", spring);
     // Only `along` of branches and curves takes what is conserved, and once.
     for (const std::string text :
          {"along = { k = [0, 1] }\nfree = [\"energy\"]", "along = { k = [0, 1] }\nfree = [\"period\"]"})

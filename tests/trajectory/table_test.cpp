@@ -51,6 +51,50 @@ TEST(Table, AMeasuredSpringReturnsAfterItsPeriod) {
     EXPECT_NEAR(experiment.trajectory.derivative(1, 1), 1, 1e-10);
 }
 
+/// A point at zero is passed as exactly as another, and by as few steps.
+TEST(Table, APointAtZeroIsPassedLikeAnother) {
+    std::size_t steps[2];
+    for (const int at_zero : {0, 1}) {
+        const double knot = at_zero == 1 ? 0 : 0.3;
+        Experiment experiment(model_from(fmt::format("states = {{ x = 0, v = 1, y = 0 }}\n"
+                                                     "modes.free = {{ rates = {{ x = 'v', v = '-x', y = 'f(x)' }} }}\n"
+                                                     "tables.f = {{ points = [[{}, {}], [{}, 2], [{}, 0]], "
+                                                     "outside = 'linear' }}\n",
+                                                     knot - 2, -4, knot, knot + 2)),
+                              with_tolerance(1e-15));
+        // f = 2 - (x - knot) above and 2 + 3 (x - knot) below, where x = sin(t) is from asin(knot) to pi - asin(knot).
+        const double pi = std::acos(-1.0), begin = std::asin(knot), end = pi - begin, last = 4;
+        const auto integral = [&](double slope, double from, double to) {
+            return (2 - slope * knot) * (to - from) + slope * (std::cos(from) - std::cos(to));
+        };
+        ASSERT_EQ(experiment.run(last).ending, Ending::end_time) << experiment.trajectory.outcome().detail;
+        EXPECT_NEAR(experiment.state()[2], integral(3, 0, begin) + integral(-1, begin, end) + integral(3, end, last),
+                    2e-14)
+            << knot;
+        steps[at_zero] = experiment.trajectory.steps();
+    }
+    EXPECT_LE(steps[1], steps[0] + 4);
+}
+
+/// A steep table within another one, with a point exactly at zero, where its argument changes sign again and again.
+TEST(Table, APointAtZeroMayBeWithinAnotherTable) {
+    const auto model = [](double shift) {
+        return model_from(fmt::format(
+            "states = {{ x = 1, v = 0, c = {{ initial = 0, period = 2.5 }} }}\n"
+            "modes.m = {{ rates = {{ x = 'v', v = '-spring(x - 0.5*third(v + {0})) - 0.2*v + 3*cos(2.513274*c)', "
+            "c = 1 }} }}\n"
+            "tables.third.points = [[{0}, 0.59], [{1}, -0.67], [{2}, 0.78], [{3}, -1]]\n"
+            "tables.spring.points = [[-1, -2.7], [0.7, 2.6], [1, 2.5]]\n",
+            shift, shift + 0.03, shift + 0.15, shift + 1));
+    };
+    // The same table elsewhere: its points are those of a shifted argument.
+    Experiment zero(model(0)), shifted(model(0.5));
+    ASSERT_EQ(zero.run(20).ending, Ending::end_time) << zero.trajectory.outcome().detail;
+    ASSERT_EQ(shifted.run(20).ending, Ending::end_time) << shifted.trajectory.outcome().detail;
+    for (std::size_t i = 0; i < 2; ++i)
+        EXPECT_NEAR(zero.state()[i], shifted.state()[i], 1e-9);
+}
+
 TEST(Table, AnEventAtAPointHappensOnce) {
     Experiment experiment(stiffening());
     const double duration = period(1.5).first;
