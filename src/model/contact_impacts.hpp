@@ -33,6 +33,8 @@ public:
 
 private:
     struct Meeting;
+    std::vector<Expression> zeros(std::size_t base, const ContactStates& closed,
+                                  const std::vector<std::size_t>& closing) const;
     bool solve_at_once(const Meeting& meeting, ContactImpact& impact) const;
     bool solve_poisson(const Meeting& meeting, const ContactStates& compressed, ContactImpact& impact) const;
     void note_after(const Meeting& meeting, ContactImpact& impact) const;

@@ -2,6 +2,7 @@
 
 #include "graze/symbolic/transform.hpp"
 #include "model/model_completion.hpp"
+#include "model/vanishing.hpp"
 
 #include <fmt/format.h>
 
@@ -67,17 +68,6 @@ bool are_linear_in_controls(Model& model, const SlideCorner& corner) {
     return true;
 }
 
-/// Returns states and parameters near their first values, at random.
-std::vector<double> some_inputs(const Model& model, std::mt19937_64& random) {
-    std::uniform_real_distribution<double> share(-1, 1);
-    std::vector<double> inputs = model.initial_state();
-    for (double& state : inputs)
-        state += (1 + std::abs(state)) * share(random);
-    for (const double value : model.parameter_values())
-        inputs.push_back(value == 0 ? share(random) : value * (1 + 0.5 * share(random)));
-    return inputs;
-}
-
 bool is_unique(Model& model, const SlideCorner& corner) {
     constexpr int samples = 24, fewest = 4;
     constexpr double round_off = 1e-12;
@@ -94,7 +84,7 @@ bool is_unique(Model& model, const SlideCorner& corner) {
         std::mt19937_64 random(1); // the same numbers each time
         int defined = 0;
         for (int sample = 0; sample < samples; ++sample) {
-            const std::vector<double> f = fields(some_inputs(model, random));
+            const std::vector<double> f = fields(random_inputs(model, random));
             if (!std::ranges::all_of(f, [](double one) { return std::isfinite(one); }))
                 continue;
             ++defined;

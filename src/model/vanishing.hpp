@@ -1,0 +1,32 @@
+#pragma once
+
+#include "graze/model/model.hpp"
+
+#include <random>
+#include <span>
+#include <vector>
+
+namespace graze {
+
+/// Returns states and parameters near their first values, at random.
+std::vector<double> random_inputs(const Model& model, std::mt19937_64& random);
+
+/// Tells which expressions are zero wherever others are, for all states and parameters. Computed in double precision
+/// such an expression is round-off of either sign, so that no decision may depend on it. It is tried at random states
+/// that Newton's method has moved to zeros of the others; expressions are analytic, so that those that are zero there
+/// are zero everywhere.
+class Vanishing {
+public:
+    /// @param model must outlive this; its graph grows
+    /// @param zero expanded expressions that are zero, such as the gaps of closed contacts
+    Vanishing(const Model& model, std::span<const Expression> zero);
+
+    /// Returns for each expression whether it vanishes; false where that cannot be told, as with tables.
+    std::vector<bool> of(std::span<const Expression> expressions) const;
+
+private:
+    const Model& model_;
+    std::vector<std::vector<double>> samples_; ///< states and parameters
+};
+
+} // namespace graze
