@@ -1,7 +1,5 @@
 #include "model/contact_impacts.hpp"
 
-#include "model/vanishing.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +14,7 @@ struct ContactImpacts::Meeting {
     const std::vector<std::size_t>& closing;
     Expression zero{};
     bool alone = false; ///< contacts that are closed take no impulse, so that they are hit next
-    Vanishing vanishing;
+    const Vanishing* vanishing = nullptr;
 
     bool is_closing(std::size_t contact) const { return std::ranges::find(closing, contact) != closing.end(); }
     bool takes_part(std::size_t contact) const {
@@ -34,7 +32,7 @@ struct ContactImpacts::Meeting {
         std::vector<Expression> functions;
         for (const Condition& one : conditions)
             functions.push_back(one.function);
-        const std::vector<bool> vanishes = vanishing.of(functions);
+        const std::vector<bool> vanishes = vanishing->of(functions);
         std::size_t number = 0;
         std::erase_if(conditions, [&](const Condition&) { return vanishes[number++]; });
     }
@@ -136,7 +134,7 @@ bool ContactImpacts::solve_poisson(const Meeting& meeting, const ContactStates& 
                            ? -(meeting.normal(i) + mechanics.along(mechanics.normal(i), impact.changes))
                            : meeting.zero);
     const ContactForces more = mechanics.solve(impact.active, left, left);
-    const std::vector<bool> takes_none = meeting.vanishing.of(more.normal);
+    const std::vector<bool> takes_none = meeting.vanishing->of(more.normal);
     for (std::size_t i = 0; i < compressed.size(); ++i) {
         if (!meeting.takes_part(i))
             continue;
@@ -165,7 +163,7 @@ void ContactImpacts::note_after(const Meeting& meeting, ContactImpact& impact) c
                                  ? mechanics.slip(i).velocity + mechanics.along(mechanics.slip(i), impact.changes)
                                  : model_.number(1));
     }
-    const std::vector<bool> vanishes = meeting.vanishing.of(velocities);
+    const std::vector<bool> vanishes = meeting.vanishing->of(velocities);
     std::vector<std::size_t> held;
     const auto note_zero = [&](std::size_t direction, const Expression& velocity) {
         held.push_back(direction);
@@ -204,12 +202,9 @@ void ContactImpacts::note_after(const Meeting& meeting, ContactImpact& impact) c
 std::vector<ContactImpact> ContactImpacts::at(std::size_t base, const ContactStates& closed,
                                               const std::vector<std::size_t>& closing) const {
     const ImpactLaw law = model_.contact_settings.law;
-    const Meeting meeting{modes_.mechanics(base),
-                          closed,
-                          closing,
-                          model_.number(0),
-                          law == ImpactLaw::sequence,
-                          {model_, zeros(base, closed, closing)}};
+    const Vanishing vanishing(model_, inputs_, zeros(base, closed, closing));
+    const Meeting meeting{modes_.mechanics(base),     closed,    closing, model_.number(0),
+                          law == ImpactLaw::sequence, &vanishing};
     std::vector<std::vector<ContactState>> options;
     std::size_t parts = 0;
     bool smooth = true;
@@ -265,7 +260,7 @@ std::vector<ContactImpact> ContactImpacts::at(std::size_t base, const ContactSta
 
 StateMap ContactImpacts::rest(std::size_t base, const ContactStates& closed, const ContactStates& after,
                               const std::vector<std::size_t>& closing) const {
-    const Meeting meeting{modes_.mechanics(base), closed, closing, model_.number(0), false, {model_, {}}};
+    const Meeting meeting{modes_.mechanics(base), closed, closing, model_.number(0)};
     std::vector<Expression> normal, tangential, zero;
     for (std::size_t i = 0; i < after.size(); ++i) {
         normal.push_back(after[i] == ContactState::open ? meeting.zero : -meeting.normal(i));

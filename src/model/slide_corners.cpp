@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <random>
 
 namespace graze {
 
@@ -81,10 +80,10 @@ bool is_unique(Model& model, const SlideCorner& corner) {
     const std::size_t n = model.states.size();
     try {
         const Function fields = model.function_of(rates);
-        std::mt19937_64 random(1); // the same numbers each time
+        RandomInputs random(model);
         int defined = 0;
         for (int sample = 0; sample < samples; ++sample) {
-            const std::vector<double> f = fields(random_inputs(model, random));
+            const std::vector<double> f = fields(random.drawn());
             if (!std::ranges::all_of(f, [](double one) { return std::isfinite(one); }))
                 continue;
             ++defined;

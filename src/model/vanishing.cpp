@@ -34,8 +34,8 @@ public:
     bool approach(std::vector<double>& inputs) const {
         constexpr int most_steps = 40;
         constexpr double close = 1e-10; // Newton's method then doubles the digits
-        if (rows_ == 0)
-            return true;
+        if (rows_ == 0 || inputs.empty())
+            return !inputs.empty();
         for (int k = 0, more = 0; k < most_steps; ++k) {
             const std::vector<double> values = function_(inputs);
             if (!std::ranges::all_of(values, [](double one) { return std::isfinite(one); }))
@@ -73,22 +73,32 @@ bool looks_up(const Expression& expression) {
 
 } // namespace
 
-std::vector<double> random_inputs(const Model& model, std::mt19937_64& random) {
+RandomInputs::RandomInputs(const Model& model) {
+    try {
+        states_ = model.initial_state();
+        parameters_ = model.parameter_values();
+    } catch (const InputError&) {
+        states_.clear(); // `validate` tells what is wrong
+    }
+}
+
+std::vector<double> RandomInputs::drawn() {
     std::uniform_real_distribution<double> share(-1, 1);
-    std::vector<double> inputs = model.initial_state();
+    std::vector<double> inputs = states_;
+    if (inputs.empty())
+        return inputs;
     for (double& state : inputs)
-        state += (1 + std::abs(state)) * share(random);
-    for (const double value : model.parameter_values())
-        inputs.push_back(value == 0 ? share(random) : value * (1 + 0.5 * share(random)));
+        state += (1 + std::abs(state)) * share(random_);
+    for (const double value : parameters_)
+        inputs.push_back(value == 0 ? share(random_) : value * (1 + 0.5 * share(random_)));
     return inputs;
 }
 
-Vanishing::Vanishing(const Model& model, std::span<const Expression> zero) : model_(model) {
+Vanishing::Vanishing(const Model& model, RandomInputs random, std::span<const Expression> zero) : model_(model) {
     try {
         const Zeros zeros(model, zero);
-        std::mt19937_64 random(1); // the same numbers each time
         for (int tries = 0; tries < most_tries && samples_.size() < samples; ++tries)
-            if (std::vector<double> inputs = random_inputs(model, random); zeros.approach(inputs))
+            if (std::vector<double> inputs = random.drawn(); zeros.approach(inputs))
                 samples_.push_back(std::move(inputs));
     } catch (const InputError&) {
         samples_.clear(); // `validate` tells what is wrong
