@@ -78,6 +78,9 @@ public:
     /// Returns whether the directions that these states hold are independent at the initial state, but for contacts
     /// that stick together.
     bool independent(const ContactStates& states) const { return carriers(states).has_value(); }
+    /// Returns whether directions are independent at the initial state: the normal of contact i is number 2i, its slip
+    /// 2i + 1.
+    bool independent(const std::vector<std::size_t>& directions) const;
     /// Contacts may stick in more directions than the velocities have, as a block that stands on two corners. The
     /// friction of all of them is then one force, if their directions are the same; its share in each is not
     /// determined.
@@ -91,7 +94,6 @@ private:
     Expression same_direction(const ContactDirection& one, const ContactDirection& other) const;
     void require_positive_masses() const;
     void note_products();
-    bool independent(const std::vector<std::size_t>& directions) const;
 
     Model& model_;
     const Places& places_;

@@ -14,6 +14,7 @@ struct ContactImpacts::Meeting {
     const std::vector<std::size_t>& closing;
     Expression zero{};
     bool alone = false; ///< contacts that are closed take no impulse, so that they are hit next
+    const Vanishing* vanishing = nullptr;
 
     bool is_closing(std::size_t contact) const { return std::ranges::find(closing, contact) != closing.end(); }
     bool takes_part(std::size_t contact) const {
@@ -26,7 +27,34 @@ struct ContactImpacts::Meeting {
     Expression slip(std::size_t contact) const {
         return closed[contact] == ContactState::stick ? zero : mechanics.slip(contact).velocity;
     }
+    /// Removes the conditions that round-off would decide: those that are zero by the law, and so hold.
+    void remove_vanishing(std::vector<Condition>& conditions) const {
+        std::vector<Expression> functions;
+        for (const Condition& one : conditions)
+            functions.push_back(one.function);
+        const std::vector<bool> vanishes = vanishing->of(functions);
+        std::size_t number = 0;
+        std::erase_if(conditions, [&](const Condition&) { return vanishes[number++]; });
+    }
 };
+
+/// Returns what is zero when contacts close at once while others are closed.
+std::vector<Expression> ContactImpacts::zeros(std::size_t base, const ContactStates& closed,
+                                              const std::vector<std::size_t>& closing) const {
+    const ContactMechanics& mechanics = modes_.mechanics(base);
+    std::vector<Expression> result;
+    for (const std::size_t contact : closing)
+        result.push_back(mechanics.gap(contact));
+    for (std::size_t i = 0; i < closed.size(); ++i) {
+        if (closed[i] == ContactState::open)
+            continue;
+        result.push_back(mechanics.gap(i));
+        result.push_back(mechanics.normal(i).velocity);
+        if (closed[i] == ContactState::stick)
+            result.push_back(mechanics.slip(i).velocity);
+    }
+    return result;
+}
 
 Expression ContactImpacts::restitution(std::size_t contact) const {
     return modes_.motion().expanded(model_.contacts[contact].restitution);
@@ -69,6 +97,7 @@ bool ContactImpacts::solve_at_once(const Meeting& meeting, ContactImpact& impact
     }
     for (const Expression& one : impulses.parallel)
         require(one);
+    meeting.remove_vanishing(impact.when);
     return possible;
 }
 
@@ -105,14 +134,18 @@ bool ContactImpacts::solve_poisson(const Meeting& meeting, const ContactStates& 
                            ? -(meeting.normal(i) + mechanics.along(mechanics.normal(i), impact.changes))
                            : meeting.zero);
     const ContactForces more = mechanics.solve(impact.active, left, left);
+    const std::vector<bool> takes_none = meeting.vanishing->of(more.normal);
     for (std::size_t i = 0; i < compressed.size(); ++i) {
         if (!meeting.takes_part(i))
             continue;
         if (impact.active[i] == ContactState::open)
             require(mechanics.along(mechanics.normal(i), more.changes) - left[i]);
+        else if (takes_none[i]) // the same as with this contact open
+            return false;
         else
             require(more.normal[i]);
     }
+    meeting.remove_vanishing(impact.when);
     for (std::size_t k = 0; k < impact.changes.size(); ++k)
         impact.changes[k] = impact.changes[k] + more.changes[k];
     return possible;
@@ -121,29 +154,45 @@ bool ContactImpacts::solve_poisson(const Meeting& meeting, const ContactStates& 
 /// Notes what is known of the contacts after an impact.
 void ContactImpacts::note_after(const Meeting& meeting, ContactImpact& impact) const {
     using Normal = ContactKnowledge::Normal;
+    const ContactMechanics& mechanics = meeting.mechanics;
     const ImpactLaw law = model_.contact_settings.law;
+    std::vector<Expression> velocities; // normal and tangential ones of all contacts, after the impact
+    for (std::size_t i = 0; i < impact.active.size(); ++i) {
+        velocities.push_back(mechanics.normal(i).velocity + mechanics.along(mechanics.normal(i), impact.changes));
+        velocities.push_back(mechanics.rubs(i)
+                                 ? mechanics.slip(i).velocity + mechanics.along(mechanics.slip(i), impact.changes)
+                                 : model_.number(1));
+    }
+    const std::vector<bool> vanishes = meeting.vanishing->of(velocities);
+    std::vector<std::size_t> held;
+    const auto note_zero = [&](std::size_t direction, const Expression& velocity) {
+        held.push_back(direction);
+        if (mechanics.independent(held))
+            impact.zero.push_back(velocity);
+        else // it follows from the others
+            held.pop_back();
+    };
     for (std::size_t i = 0; i < impact.active.size(); ++i) {
         ContactKnowledge& one = impact.after.emplace_back();
         if (!meeting.takes_part(i)) {
-            const bool kept = meeting.closed[i] != ContactState::open &&
-                              meeting.mechanics.along(meeting.mechanics.normal(i), impact.changes).is_number(0);
-            if (kept) // otherwise it separates, or is hit next
+            if (meeting.closed[i] != ContactState::open && vanishes[2 * i]) // otherwise it separates, or is hit next
                 one.normal = Normal::touching;
             continue;
         }
         const bool active = impact.active[i] != ContactState::open;
-        const bool vanishes =
-            active && (law == ImpactLaw::poisson || !meeting.is_closing(i) || restitution(i).is_number(0));
-        one.normal = vanishes ? Normal::touching : Normal::unknown;
-        if (vanishes)
-            impact.zero.push_back(meeting.mechanics.normal(i).velocity);
-        if (!meeting.mechanics.rubs(i)) {
+        const bool touches =
+            vanishes[2 * i] ||
+            (active && (law == ImpactLaw::poisson || !meeting.is_closing(i) || restitution(i).is_number(0)));
+        one.normal = touches ? Normal::touching : Normal::unknown;
+        if (touches)
+            note_zero(2 * i, mechanics.normal(i).velocity);
+        if (!mechanics.rubs(i)) {
             one.slip = ContactState::closed;
-        } else if (impact.active[i] == ContactState::stick &&
-                   (law != ImpactLaw::moreau || restitution(i).is_number(0) ||
-                    meeting.closed[i] == ContactState::stick)) {
+        } else if (vanishes[2 * i + 1] || (impact.active[i] == ContactState::stick &&
+                                           (law != ImpactLaw::moreau || restitution(i).is_number(0) ||
+                                            meeting.closed[i] == ContactState::stick))) {
             one.at_rest = true;
-            impact.zero.push_back(meeting.mechanics.slip(i).velocity);
+            note_zero(2 * i + 1, mechanics.slip(i).velocity);
         } else if (is_slip(impact.active[i]) && law != ImpactLaw::moreau) {
             one.slip = impact.active[i];
         }
@@ -153,7 +202,9 @@ void ContactImpacts::note_after(const Meeting& meeting, ContactImpact& impact) c
 std::vector<ContactImpact> ContactImpacts::at(std::size_t base, const ContactStates& closed,
                                               const std::vector<std::size_t>& closing) const {
     const ImpactLaw law = model_.contact_settings.law;
-    const Meeting meeting{modes_.mechanics(base), closed, closing, model_.number(0), law == ImpactLaw::sequence};
+    const Vanishing vanishing(model_, inputs_, zeros(base, closed, closing));
+    const Meeting meeting{modes_.mechanics(base),     closed,    closing, model_.number(0),
+                          law == ImpactLaw::sequence, &vanishing};
     std::vector<std::vector<ContactState>> options;
     std::size_t parts = 0;
     bool smooth = true;
@@ -179,9 +230,10 @@ std::vector<ContactImpact> ContactImpacts::at(std::size_t base, const ContactSta
         options[closing.front()].pop_back();
     const std::vector<ContactStates> all = fewest_open(combinations(options));
     std::vector<ContactImpact> result;
+    const auto always = [&] { return !result.empty() && result.back().when.empty(); };
     const auto add = [&](const ContactStates& compressed, const ContactStates& active) {
         ContactImpact impact{.active = active};
-        if (!modes_.possible(base, active) || !modes_.possible(base, compressed))
+        if (always() || !modes_.possible(base, active) || !modes_.possible(base, compressed))
             return;
         if (law == ImpactLaw::poisson ? !solve_poisson(meeting, compressed, impact) : !solve_at_once(meeting, impact))
             return;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/contact_choice.hpp"
+#include "model/vanishing.hpp"
 
 #include <string>
 #include <vector>
@@ -21,7 +22,7 @@ struct ContactImpact {
 /// 1988; Leine and van de Wouw 2008, chapter 5).
 class ContactImpacts {
 public:
-    ContactImpacts(Model& model, ContactModes& modes) : model_(model), modes_(modes) {}
+    ContactImpacts(Model& model, ContactModes& modes) : model_(model), modes_(modes), inputs_(model) {}
 
     /// Returns the possible impacts of contacts that close at once while others are closed.
     /// @param closed states before; @param closing contacts that are open before
@@ -33,6 +34,8 @@ public:
 
 private:
     struct Meeting;
+    std::vector<Expression> zeros(std::size_t base, const ContactStates& closed,
+                                  const std::vector<std::size_t>& closing) const;
     bool solve_at_once(const Meeting& meeting, ContactImpact& impact) const;
     bool solve_poisson(const Meeting& meeting, const ContactStates& compressed, ContactImpact& impact) const;
     void note_after(const Meeting& meeting, ContactImpact& impact) const;
@@ -40,6 +43,7 @@ private:
 
     Model& model_;
     ContactModes& modes_;
+    RandomInputs inputs_;
 };
 
 } // namespace graze

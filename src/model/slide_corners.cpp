@@ -2,13 +2,13 @@
 
 #include "graze/symbolic/transform.hpp"
 #include "model/model_completion.hpp"
+#include "model/vanishing.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <random>
 
 namespace graze {
 
@@ -67,17 +67,6 @@ bool are_linear_in_controls(Model& model, const SlideCorner& corner) {
     return true;
 }
 
-/// Returns states and parameters near their first values, at random.
-std::vector<double> some_inputs(const Model& model, std::mt19937_64& random) {
-    std::uniform_real_distribution<double> share(-1, 1);
-    std::vector<double> inputs = model.initial_state();
-    for (double& state : inputs)
-        state += (1 + std::abs(state)) * share(random);
-    for (const double value : model.parameter_values())
-        inputs.push_back(value == 0 ? share(random) : value * (1 + 0.5 * share(random)));
-    return inputs;
-}
-
 bool is_unique(Model& model, const SlideCorner& corner) {
     constexpr int samples = 24, fewest = 4;
     constexpr double round_off = 1e-12;
@@ -91,10 +80,10 @@ bool is_unique(Model& model, const SlideCorner& corner) {
     const std::size_t n = model.states.size();
     try {
         const Function fields = model.function_of(rates);
-        std::mt19937_64 random(1); // the same numbers each time
+        RandomInputs random(model);
         int defined = 0;
         for (int sample = 0; sample < samples; ++sample) {
-            const std::vector<double> f = fields(some_inputs(model, random));
+            const std::vector<double> f = fields(random.drawn());
             if (!std::ranges::all_of(f, [](double one) { return std::isfinite(one); }))
                 continue;
             ++defined;

@@ -227,4 +227,26 @@ TEST(ContactDeclarations, TellMistakes) {
         "own");
 }
 
+/// Whether a contact acts again in expansion is decided by its rate after compression. That of one that was closed
+/// before is zero if both coefficients are the same: there is no such alternative.
+TEST(ContactDeclarations, PoissonsLawDecidesNothingByRoundOff) {
+    const auto labels_with_again = [](const std::string& other) {
+        const Model model = parsed(fmt::format(R"toml(parameters = {{ e = 0.7, f = 0.7 }}
+states = {{ x = 0, v = 0, y = 1.5, u = 0 }}
+modes.free.rates = {{ x = "v", v = "-x - 0.1*v", y = "u", u = "1.2 - y - 0.1*u" }}
+contacts.velocities = ["v", "u"]
+contacts.mass = [1, 0.5]
+contacts.law = "poisson"
+contacts.stop = {{ gap = "x + 0.5", restitution = "e" }}
+contacts.pair = {{ gap = "y - x - 0.7", restitution = "{}" }}
+)toml",
+                                               other));
+        return std::ranges::count_if(model.transitions, [&](const Transition& one) {
+            return model.modes[one.mode].name == "free-stop" && one.label.find("again-stop") != std::string::npos;
+        });
+    };
+    EXPECT_EQ(labels_with_again("e"), 0);
+    EXPECT_GT(labels_with_again("f"), 0);
+}
+
 } // namespace graze::contacts_test

@@ -408,4 +408,56 @@ upper = { gap = "play - hM*phiM", restitution = 0, friction = "mu", slip = "v + 
     EXPECT_NEAR(passages[last].state[5], -7.4583, 0.001 * 7.4583);
 }
 
+/// A block that slides along a floor is wedged under a slope. Both normal velocities follow from the law, so that the
+/// mean slip along the slope is zero whatever friction does; with the slope's own coefficient e the block returns with
+/// e times its speed. In exact arithmetic v' = -10 mu until the impact after the distance 1, and mu = 0.2.
+TEST(Contacts, BlockIsWedgedUnderASlope) {
+    for (const double angle : {0.88, 0.95, 1.1})
+        for (const double e : {0.2, 0.8}) {
+            Experiment experiment(model_from(fmt::format(R"toml(
+states = {{ x = 1, y = 0, u = -4, v = 0 }}
+modes.free.rates = {{ x = "u", y = "v", u = 0, v = -10 }}
+contacts.law = "moreau"
+contacts.velocities = ["u", "v"]
+contacts.mass = [1, 1]
+contacts.floor = {{ gap = "y", restitution = 0.5, friction = 0.2, slip = "u" }}
+contacts.slope = {{ gap = "{0:.17g}*x - {1:.17g}*y", restitution = {2}, friction = 0.5, slip = "{1:.17g}*u + {0:.17g}*v" }}
+)toml",
+                                                         std::cos(angle), std::sin(angle), e)));
+            const double speed = std::sqrt(16.0 - 4), after = e * speed, time = (4 - speed) / 2;
+            EXPECT_EQ(experiment.run(2.5).ending, Ending::end_time) << experiment.trajectory.outcome().detail;
+            const Contact& hit = experiment.recorder.contacts().front().contact;
+            EXPECT_NEAR(hit.time, time, 1e-14);
+            EXPECT_NEAR(hit.after[2], after, 1e-13);
+            EXPECT_NEAR(hit.after[3], 0, 1e-15);
+            EXPECT_NEAR(experiment.state()[0],
+                        after < 2 * (2.5 - time) ? after * after / 4
+                                                 : after * (2.5 - time) - (2.5 - time) * (2.5 - time),
+                        1e-13);
+        }
+}
+
+/// A block slides along one of two planes at right angles until it sticks in the impact with another one: Moreau's law
+/// reverses its velocity, which stays along the plane that it touches.
+TEST(Contacts, SlidesAfterAStickingImpactAtAnotherContact) {
+    const double a = 2.05, e = 0.55;
+    Experiment experiment(model_from(fmt::format(R"toml(
+states = {{ x = 1, y = 0, u = -1, v = 0 }}
+modes.free.rates = {{ x = "u", y = "v", u = 0, v = -1 }}
+contacts.law = "moreau"
+contacts.velocities = ["u", "v"]
+contacts.mass = [[1.2, 0], [0, 1.2]]
+contacts.floor = {{ gap = "y", restitution = 0, friction = 0.1, slip = "u" }}
+contacts.slope = {{ gap = "{0:.17g}*x - ({1:.17g})*y", restitution = {2}, friction = 3, slip = "({1:.17g})*u + {0:.17g}*v" }}
+)toml",
+                                                 std::sin(a), std::cos(a), e)));
+    EXPECT_EQ(experiment.run(1.2).ending, Ending::end_time) << experiment.trajectory.outcome().detail;
+    const Contact& hit = experiment.recorder.contacts().front().contact;
+    const double speed = std::sqrt(1 - 0.2);
+    EXPECT_NEAR(hit.time, (1 - speed) / 0.1, 1e-13);
+    EXPECT_NEAR(hit.after[2], e * speed, 1e-13);
+    EXPECT_NEAR(hit.after[3], 0, 1e-15);
+    EXPECT_EQ(experiment.simulation.model().modes[hit.mode_after].name, "free-floor-forward");
+}
+
 } // namespace contacts_test
