@@ -242,7 +242,7 @@ contacts.pair = {{ gap = "y - x - 0.7", restitution = "{}" }}
 )toml",
                                                other));
         return std::ranges::count_if(model.transitions, [&](const Transition& one) {
-            return model.modes[one.mode].name == "free-stop" && one.label.find("again-stop") != std::string::npos;
+            return model.modes[one.mode].name == "free-stop" && one.label.find("stop-pair-again-stop") != std::string::npos;
         });
     };
     EXPECT_EQ(labels_with_again("e"), 0);
