@@ -225,9 +225,11 @@ std::vector<ContactImpact> ContactImpacts::at(std::size_t base, const ContactSta
             all, {}, [](const ContactStates& states) { return std::ranges::count(states, ContactState::open); });
         return all;
     };
-    const std::vector<ContactStates> expanding = fewest_open(combinations(options));
-    if (parts == 1) // a contact that approaches takes an impulse
+    std::vector<ContactStates> expanding = fewest_open(combinations(options));
+    if (parts == 1) { // a contact that approaches takes an impulse, and in expansion no more than its share
         options[closing.front()].pop_back();
+        expanding = {ContactStates(closed.size(), ContactState::open)};
+    }
     const std::vector<ContactStates> all = fewest_open(combinations(options));
     std::vector<ContactImpact> result;
     const auto always = [&] { return !result.empty() && result.back().when.empty(); };

@@ -27,7 +27,7 @@ public:
         for (const Expression& one : zero)
             for (const State& state : model.states)
                 all.push_back(differentiate(one, model.symbol(state.name)));
-        function_ = model.function_of(all);
+        function_ = Function(model.inputs(), all);
     }
 
     /// Moves states to the nearest zero. @return false if there is none near
@@ -112,7 +112,7 @@ std::vector<bool> Vanishing::of(std::span<const Expression> expressions) const {
     for (const Expression& one : expressions)
         candidate.push_back(!looks_up(one));
     try {
-        const Function function = model_.function_of(expressions);
+        const Function function(model_.inputs(), expressions); // nothing is left to expand
         std::vector<std::size_t> defined(n, 0);
         std::vector<double> values(n), errors, bounds(n), work(2 * function.workspace());
         for (const std::vector<double>& inputs : samples_) {

@@ -31,7 +31,7 @@ public:
     /// @param zero expanded expressions that are zero, such as the gaps of closed contacts
     Vanishing(const Model& model, RandomInputs inputs, std::span<const Expression> zero);
 
-    /// Returns for each expression whether it vanishes; false where that cannot be told, as with tables.
+    /// Returns for each expanded expression whether it vanishes; false where that cannot be told, as with tables.
     std::vector<bool> of(std::span<const Expression> expressions) const;
 
 private:

@@ -426,10 +426,10 @@ contacts.slope = {{ gap = "{0:.17g}*x - {1:.17g}*y", restitution = {2}, friction
                                                          std::cos(angle), std::sin(angle), e)));
             const double speed = std::sqrt(16.0 - 4), after = e * speed, time = (4 - speed) / 2;
             EXPECT_EQ(experiment.run(2.5).ending, Ending::end_time) << experiment.trajectory.outcome().detail;
-            const Contact& hit = experiment.recorder.contacts().front().contact;
+            const auto& [hit, before, after_hit] = experiment.recorder.contacts().front();
             EXPECT_NEAR(hit.time, time, 1e-14);
-            EXPECT_NEAR(hit.after[2], after, 1e-13);
-            EXPECT_NEAR(hit.after[3], 0, 1e-15);
+            EXPECT_NEAR(after_hit[2], after, 1e-13);
+            EXPECT_NEAR(after_hit[3], 0, 1e-15);
             EXPECT_NEAR(experiment.state()[0],
                         after < 2 * (2.5 - time) ? after * after / 4
                                                  : after * (2.5 - time) - (2.5 - time) * (2.5 - time),
@@ -452,11 +452,11 @@ contacts.slope = {{ gap = "{0:.17g}*x - ({1:.17g})*y", restitution = {2}, fricti
 )toml",
                                                  std::sin(a), std::cos(a), e)));
     EXPECT_EQ(experiment.run(1.2).ending, Ending::end_time) << experiment.trajectory.outcome().detail;
-    const Contact& hit = experiment.recorder.contacts().front().contact;
+    const auto& [hit, before, after_hit] = experiment.recorder.contacts().front();
     const double speed = std::sqrt(1 - 0.2);
     EXPECT_NEAR(hit.time, (1 - speed) / 0.1, 1e-13);
-    EXPECT_NEAR(hit.after[2], e * speed, 1e-13);
-    EXPECT_NEAR(hit.after[3], 0, 1e-15);
+    EXPECT_NEAR(after_hit[2], e * speed, 1e-13);
+    EXPECT_NEAR(after_hit[3], 0, 1e-15);
     EXPECT_EQ(experiment.simulation.model().modes[hit.mode_after].name, "free-floor-forward");
 }
 
