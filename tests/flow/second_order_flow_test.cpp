@@ -301,8 +301,12 @@ Setting setting_of(const System& system, std::size_t mode) {
     ModeFlow flow(system, tolerance);
     flow.set_parameters(parameters);
     // A radian or two of the forcing phase, whose frequency is given directly or by the period.
-    double duration = model.find_parameter("omega") ? 2 / model.values_of(std::vector{model.symbol("omega")}).front()
-                                                    : 0.3 / model.values_of(std::vector{model.symbol("f")}).front();
+    const auto share_of_period = [&](const char* frequency, double share) {
+        return share / model.values_of(std::vector{model.symbol(frequency)}).front();
+    };
+    double duration = model.find_parameter("omega") ? share_of_period("omega", 2)
+                      : model.find_parameter("f")   ? share_of_period("f", 0.3)
+                                                    : 1;
     for (;; duration /= 2) {
         Setting setting{{}, Numbers(model.states.size(), 0.0), duration};
         Numbers state = model.initial_state();
