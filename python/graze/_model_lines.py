@@ -45,7 +45,7 @@ class ModelLines:
 
     def note_table(self, table: Any, label: str) -> None:
         name = table.parts[0]
-        if not self.tables.setdefault(name, table) == table:
+        if self.tables.setdefault(name, table).parts != table.parts:
             raise mistake(label, f"two different tables have the name '{name}'", "rename one of them")
 
     def write_tables(self) -> None:

@@ -275,10 +275,7 @@ void bind_expressions(py::module_& module) {
         .def("look_up", &looked_up, py::arg("at"))
         .def(
             "value", [](const HeldTable& self, double x) { return self.table->value(x, 0); }, py::arg("x"))
-        .def_property_readonly("parts", &parts_of)
-        .def(
-            "__eq__", [](const HeldTable& self, const HeldTable& other) { return *self.table == *other.table; },
-            py::is_operator());
+        .def_property_readonly("parts", &parts_of);
     type.def_property_readonly("_tables", &tables_of);
 
     module.def("parsed_expression", &parsed, py::arg("text"), py::arg("names"),
