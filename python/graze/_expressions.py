@@ -261,13 +261,21 @@ for _name, _written in {
 del _name, _method, _written
 
 
+def _tables_again(all_parts):
+    return [_graze.PieceTable(*parts) for parts in all_parts]
+
+
 def _condition_again(text, tables):
-    return Condition(text, [_graze.PieceTable(*parts) for parts in tables])
+    return Condition(text, _tables_again(tables))
 
 
 def _made_again(text, tables):
-    names = dict.fromkeys(word for word in _WORD.findall(text) if word != "pi")
-    return _graze.parsed_expression(text, list(names), [_graze.PieceTable(*parts) for parts in tables])
+    return _graze.parsed_expression(text, list(_names_in(text)), _tables_again(tables))
+
+
+def _names_in(text):
+    """The names that a text uses, each once, in their order."""
+    return dict.fromkeys(word for word in _WORD.findall(text) if word != "pi")
 
 
 _WORD = re.compile(r"(?<![\w.])[A-Za-z_][A-Za-z0-9_]*(?![\w(])(?!\s*\()", re.ASCII)
@@ -286,7 +294,7 @@ def expression(text: Any, *names: str) -> Expression:
             raise InputError(f"{short(text)} is no expression", "give a text or a number")
         return _graze.number(number_of(text))
     text = plain(text)
-    known = dict.fromkeys(map(plain, names) if names else (word for word in _WORD.findall(text) if word != "pi"))
+    known = dict.fromkeys(map(plain, names)) if names else _names_in(text)
     for name in known:
         _graze.symbol(name)  # raises for what is no name
     return _graze.parsed_expression(text, list(known))

@@ -41,10 +41,7 @@ void CornerModes::enter(const SlideCorner& corner) {
         const Slide& slide = model_.slides[surface.above];
         const std::vector<Expression> left = motion_.expanded(model_.modes[slide.left].rates),
                                       right = motion_.expanded(model_.modes[slide.right].rates);
-        std::vector<bool> discontinuous;
-        for (std::size_t i = 0; i < left.size(); ++i)
-            discontinuous.push_back(!(left[i] == right[i]));
-        motion_.add_surface(motion_.expanded(model_.events[slide.surface].function), discontinuous);
+        motion_.add_surface(motion_.expanded(model_.events[slide.surface].function), differing(left, right));
     }
 }
 
@@ -168,10 +165,7 @@ void CornerModes::complete(const SlideCorner& corner) {
     const Expression share = below.towards / (below.towards + above.towards);
     const std::vector<Expression> first = motion_.expanded(model_.modes[below.mode].rates),
                                   second = motion_.expanded(model_.modes[above.mode].rates);
-    std::vector<Expression> field;
-    for (std::size_t i = 0; i < first.size(); ++i)
-        field.push_back(first[i] == second[i] ? first[i] : first[i] + share * (second[i] - first[i]));
-    model_.modes[sliding].rates = motion_.tangent(std::move(field));
+    model_.modes[sliding].rates = motion_.tangent(combined(first, second, share));
 
     const std::vector<Expression>& rates = model_.modes[sliding].rates;
     const auto stays = [&](const Arm& arm) {

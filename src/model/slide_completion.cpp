@@ -189,18 +189,13 @@ private:
                              mode_name(slide.left), mode_name(slide.right), event_name(slide.surface)),
                  "leave the slide out, and write the transitions");
         made.sliding = slide.convention == SlideConvention::utkin ? with_equivalent_control(slide, function)
-                                                                  : combined(made.left, made.right);
+                                                                  : with_filippovs_share(made.left, made.right);
         return made;
     }
 
     /// Returns the combination of both fields that is tangent to the surface (Filippov).
-    std::vector<Expression> combined(const SlidingSide& left, const SlidingSide& right) const {
-        const Expression share = left.approach / (left.approach - right.approach);
-        std::vector<Expression> field;
-        for (std::size_t i = 0; i < left.field.size(); ++i)
-            field.push_back(left.field[i] == right.field[i] ? left.field[i]
-                                                            : left.field[i] + share * (right.field[i] - left.field[i]));
-        return field;
+    static std::vector<Expression> with_filippovs_share(const SlidingSide& left, const SlidingSide& right) {
+        return combined(left.field, right.field, left.approach / (left.approach - right.approach));
     }
 
     /// Returns the field with the value of the control at which it is tangent to the surface (Utkin).
@@ -221,11 +216,8 @@ private:
         const std::string path = "slides." + slide.name;
         const Expression function = motion_.expanded(model_.events[slide.surface].function);
         Fields fields = fields_of(slide, function);
-        std::vector<bool> discontinuous;
-        for (std::size_t i = 0; i < model_.states.size(); ++i)
-            discontinuous.push_back(!(fields.left.field[i] == fields.right.field[i]));
         motion_.leave_surfaces();
-        motion_.add_surface(function, discontinuous);
+        motion_.add_surface(function, differing(fields.left.field, fields.right.field));
         const std::size_t sliding = *model_.find_mode(slide.name);
         model_.modes[sliding].text = slide.text;
         model_.modes[sliding].rates = motion_.tangent(fields.sliding);

@@ -108,4 +108,19 @@ bool SurfaceMotion::stays(const Expression& function, std::span<const Expression
     return one && field[one->state].is_number(0) && !depends_on_states(one->image);
 }
 
+std::vector<bool> differing(std::span<const Expression> one, std::span<const Expression> other) {
+    std::vector<bool> result;
+    for (std::size_t i = 0; i < one.size(); ++i)
+        result.push_back(!(one[i] == other[i]));
+    return result;
+}
+
+std::vector<Expression> combined(std::span<const Expression> one, std::span<const Expression> other,
+                                 const Expression& share) {
+    std::vector<Expression> field;
+    for (std::size_t i = 0; i < one.size(); ++i)
+        field.push_back(one[i] == other[i] ? one[i] : one[i] + share * (other[i] - one[i]));
+    return field;
+}
+
 } // namespace graze

@@ -60,4 +60,10 @@ private:
     bool by_parameters_ = false; ///< see allow_parameters
 };
 
+/// Returns for each component whether two fields differ in it.
+std::vector<bool> differing(std::span<const Expression> one, std::span<const Expression> other);
+/// Returns the combination one + share (other - one) of two fields.
+std::vector<Expression> combined(std::span<const Expression> one, std::span<const Expression> other,
+                                 const Expression& share);
+
 } // namespace graze

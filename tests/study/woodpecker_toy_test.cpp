@@ -3,6 +3,7 @@
 
 #include "graze/model/model_file.hpp"
 #include "study/study_fixture.hpp"
+#include "trajectory/woodpecker_toy.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,28 +15,9 @@ namespace graze::woodpecker_toy_test {
 
 using namespace graze::testing;
 
-const std::string toy = R"toml(
-parameters = { g = 9.81, mM = 0.0003, JM = 5e-9, mS = 0.0045, JS = 7e-7, c = 0.0056, play = 0.0006, rM = 0.0031, hM = 0.0058, lM = 0.01, lG = 0.015, hS = 0.02, lS = 0.0201, reach = 0.0024, mu = 0.3, e = 0.5 }
-states = { y = { initial = 0, drifting = true }, phiM = "-play/hM", phiS = -0.2788, v = -0.3395, wM = 0, wS = -7.462 }
-definitions.spring = "c*(phiM - phiS)"
-initial.mode = "free"
-[modes.free]
-rates = { y = "v", phiM = "wM", phiS = "wS" }
-forces = { v = "-(mS + mM)*g", wM = "-spring - mS*g*lM", wS = "spring - mS*g*lG" }
-[contacts]
-velocities = ["v", "wM", "wS"]
-mass = [["mS + mM", "mS*lM", "mS*lG"], ["mS*lM", "JM + mS*lM^2", "mS*lM*lG"], ["mS*lG", "mS*lM*lG", "JS + mS*lG^2"]]
-beak = { gap = "reach - hS*phiS", restitution = "e", friction = "mu", slip = "v + lM*wM + (lG - lS)*wS" }
-lower = { gap = "play + hM*phiM", restitution = 0, friction = "mu", slip = "v + rM*wM" }
-upper = { gap = "play - hM*phiM", restitution = 0, friction = "mu", slip = "v + rM*wM" }
-[sections.leaning]
-function = "phiS + 0.2788"
-direction = "falling"
-)toml";
-
 class WoodpeckerToy : public StudyFixture {
 protected:
-    WoodpeckerToy() { folder_.write("toy.toml", toy); }
+    WoodpeckerToy() { folder_.write("toy.toml", woodpecker_toy); }
 };
 
 /// Published are v = -0.3411 and wS = -7.4583 at phiS = -0.2788, by time stepping; time stepping with steps of 1e-6 s
@@ -60,7 +42,7 @@ along = { e = [0.49, 0.51] }
     // While friction holds the sleeve at the lower edge the woodpecker swings about a balance of its own.
     const double w = std::sqrt(0.0056 / (7e-7 + 0.0045 * 0.015 * 0.015)),
                  middle = -0.0006 / 0.0058 - 0.0045 * 9.81 * 0.015 / 0.0056;
-    const Model model = parse_model(toy, "toy.toml");
+    const Model model = parse_model(woodpecker_toy, "toy.toml");
     std::size_t swings = 0;
     for (std::size_t k = 0; k < orbit.segments(); ++k) {
         if (model.modes[orbit.signature[k].mode].name != "free-lower-stick")

@@ -22,10 +22,6 @@ struct Relays {
     std::string states = "x = 1\ny = 1\nz = 0\nclock = 0\n";
 };
 
-std::string slide(const char* name, const char* surface, const char* left, const char* right) {
-    return fmt::format("[slides.{}]\nsurface = \"{}\"\nbetween = [\"{}\", \"{}\"]\n", name, surface, left, right);
-}
-
 std::string text_of(const Relays& relays) {
     std::string text = "name = \"relays\"\n[states]\n" + relays.states + "[events]\nfront = \"x\"\nside = \"y\"\n";
     for (const int u : {1, -1})
@@ -36,8 +32,7 @@ std::string text_of(const Relays& relays) {
                                     relays.matrix[i][0], u, relays.matrix[i][1], v);
             text += " }\n";
         }
-    return text + slide("upper", "front", "mp", "pp") + slide("lower", "front", "mm", "pm") +
-           slide("right", "side", "pm", "pp") + slide("left", "side", "mm", "mp") + "[initial]\nmode = \"pp\"\n";
+    return text + slides_between_quadrants();
 }
 
 /// With p = sin(t) the relays balance it until it exceeds what they can: u = sin(t) leaves the corner at its bound.
@@ -206,13 +201,8 @@ TEST(CornerModes, NeedEquationsThatAreLinearInBothControls) {
         std::string all = "name = \"controls\"\n[states]\nx = 1\ny = 1\nz = 0\n[events]\nfront = \"x\"\nside = \"y\"\n";
         for (const char* mode : {"pp", "pm", "mp", "mm"})
             all += fmt::format("[modes.{}]\nrates = {{ x = \"0.2 - u\", y = \"0.1 - v\", z = \"{}\" }}\n", mode, rate);
-        const auto one = [](const char* name, const char* surface, const char* left, const char* right, char control) {
-            return slide(name, surface, left, right) +
-                   fmt::format("convention = \"utkin\"\ncontrol = \"{}\"\n", control);
-        };
-        return all + one("upper", "front", "mp", "pp", 'u') + one("lower", "front", "mm", "pm", 'u') +
-               one("right", "side", "pm", "pp", 'v') + one("left", "side", "mm", "mp", 'v') +
-               "[initial]\nmode = \"pp\"\n";
+        const auto with = [](char control) { return fmt::format("convention = 'utkin'\ncontrol = '{}'\n", control); };
+        return all + slides_between_quadrants(with('u'), with('v'));
     };
     Experiment linear(model_from(text("u + 3*v")), with_tolerance(1e-14));
     EXPECT_EQ(linear.run(5).ending, Ending::end_time);

@@ -29,6 +29,17 @@ inline std::string transition(const std::string& mode, const std::string& event,
            line("label", label);
 }
 
+/// Slides between the modes mm, mp, pm, pp, named by the signs of the functions of the events `front` and `side`; the
+/// motion starts in pp. @param of_front, of_side further lines of the slides along each
+inline std::string slides_between_quadrants(const std::string& of_front = "", const std::string& of_side = "") {
+    const auto slide = [](const char* name, const char* surface, const char* left, const char* right) {
+        return fmt::format("[slides.{}]\nsurface = '{}'\nbetween = ['{}', '{}']\n", name, surface, left, right);
+    };
+    return slide("upper", "front", "mp", "pp") + of_front + slide("lower", "front", "mm", "pm") + of_front +
+           slide("right", "side", "pm", "pp") + of_side + slide("left", "side", "mm", "mp") + of_side +
+           "[initial]\nmode = 'pp'\n";
+}
+
 /// A section where a function passes zero.
 inline std::string section(const std::string& name, const std::string& function,
                            const std::string& direction = "rising") {

@@ -157,11 +157,7 @@ TEST(SlidingModes, EndWhereSurfacesMeet) {
     for (const auto& [name, rates] : {std::pair("pp", "x = -1, y = -1"), std::pair("pm", "x = -1, y = 1"),
                                       std::pair("mp", "x = 1, y = -1"), std::pair("mm", "x = 1, y = 2")})
         text += fmt::format("[modes.{}]\nrates = {{ {} }}\n", name, rates);
-    const auto slide = [](const char* name, const char* surface, const char* left, const char* right) {
-        return fmt::format("[slides.{}]\nsurface = \"{}\"\nbetween = [\"{}\", \"{}\"]\n", name, surface, left, right);
-    };
-    text += slide("upper", "front", "mp", "pp") + slide("lower", "front", "mm", "pm") +
-            slide("right", "side", "pm", "pp") + slide("left", "side", "mm", "mp") + "[initial]\nmode = \"pp\"\n";
+    text += slides_between_quadrants();
     Experiment experiment(model_from(text));
     const Outcome outcome = experiment.run(10);
     EXPECT_EQ(outcome.ending, Ending::no_transition);
