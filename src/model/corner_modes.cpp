@@ -10,7 +10,8 @@ namespace graze {
 
 namespace {
 
-/// Returns the direction in which h falls to zero along the gradients of both functions.
+/// Returns the map that puts a state close to the zeros of both functions onto them: a step of Newton's method along
+/// their gradients.
 StateMap projection_onto(const std::vector<Expression>& states, const std::array<Expression, 2>& functions) {
     std::array<std::vector<Expression>, 2> gradients;
     for (std::size_t i = 0; i < 2; ++i)

@@ -4,9 +4,7 @@
 #include "model/slide_events.hpp"
 
 #include <array>
-#include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace graze {
