@@ -34,11 +34,6 @@ bool expands(const OrbitEquations& equations, const OrbitEvaluation& at) {
 }
 
 /// True when the period rises along the branch.
-bool becomes_longer(const BranchPoint& here) {
-    const std::vector<double>& rises = here.tangent.durations;
-    return std::accumulate(rises.begin(), rises.end(), 0.0) > 0;
-}
-
 std::string in_words(const Model& model, const SpecialPoint& point, const HomoclinicSolution& found,
                      ParameterId parameter) {
     std::vector<std::string> place;
@@ -62,6 +57,12 @@ public:
 
 } // namespace
 
+bool HomoclinicEnd::is_sought(const BranchSettings& settings, const BranchPoint& here) {
+    const std::vector<double>& rises = here.tangent.durations;
+    return !settings.kept && !settings.family && settings.free.empty() &&
+           std::accumulate(rises.begin(), rises.end(), 0.0) > 0;
+}
+
 std::optional<SpecialPoint> HomoclinicEnd::find(BranchState& state, const BranchPoint& here) {
     // Distance from the saddle, in units of the orbit's extent, below which the homoclinic orbit is sought; share of it
     // after which it is sought again; largest change from the periodic orbit, in the same units.
@@ -70,7 +71,7 @@ std::optional<SpecialPoint> HomoclinicEnd::find(BranchState& state, const Branch
     const OrbitEquations& equations = state.problem().equations();
     const OrbitEvaluation& at = state.problem().evaluation();
     const Orbit& orbit = here.solution.orbit;
-    if (settings.kept || settings.family || !settings.free.empty() || !becomes_longer(here) || !expands(equations, at))
+    if (!expands(equations, at))
         return std::nullopt;
     const auto candidate = homoclinic_candidate(state.system(), orbit, settings.orbit.tolerance);
     if (!candidate || candidate->distance > std::min(near, nearer * sought_))

@@ -11,7 +11,9 @@ namespace graze {
 /// The end of a branch of periodic orbits whose period grows without bound, because they approach a homoclinic orbit.
 class HomoclinicEnd {
 public:
-    /// Returns the homoclinic orbit that lies ahead of a point; empty if there is none, or it is still far. The
+    /// True where a homoclinic orbit is looked for: on branches, not curves or families, whose orbits become longer.
+    static bool is_sought(const BranchSettings& settings, const BranchPoint& here);
+    /// Returns the homoclinic orbit that lies ahead of such a point; empty if there is none, or it is still far. The
     /// equations of the branch must be evaluated at the point.
     std::optional<SpecialPoint> find(BranchState& state, const BranchPoint& here);
 

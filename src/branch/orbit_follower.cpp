@@ -214,9 +214,10 @@ private:
     }
     /// Ends the branch in the homoclinic orbit that its orbits approach. @return false if they approach none
     bool end_at_homoclinic() {
-        auto point = state_.problem().evaluate(state_.continuation().point().u)
-                         ? homoclinic_end_.find(state_, here_.point)
-                         : std::nullopt;
+        if (!HomoclinicEnd::is_sought(state_.settings(), here_.point) ||
+            !state_.problem().evaluate(state_.continuation().point().u))
+            return false;
+        auto point = homoclinic_end_.find(state_, here_.point);
         if (!point)
             return false;
         found_ = {std::move(*point)};

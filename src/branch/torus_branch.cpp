@@ -2,6 +2,7 @@
 
 #include "base/decompositions.hpp"
 #include "base/enumerator_name.hpp"
+#include "branch/bounds.hpp"
 #include "branch/resonances.hpp"
 #include "branch/torus_facts.hpp"
 #include "graze/base/input_error.hpp"
@@ -92,7 +93,7 @@ public:
             throw InputError("tori are followed in one parameter, and not along a family", "name one parameter alone");
         settings_.continuation.accuracy = std::max(settings.continuation.accuracy, settings.orbit.accuracy);
         const double at = point.solution.orbit.parameters[settings.parameter.place()];
-        if (is_beyond(at))
+        if (is_outside(settings_, at))
             throw InputError(fmt::format("the torus point lies at {:.10g}, outside the bounds", at),
                              "widen the bounds of the parameter");
         set_up(point.solution.orbit);
@@ -107,10 +108,6 @@ public:
     const std::string& detail() const { return detail_; }
 
 private:
-    bool is_beyond(double parameter) const {
-        return (settings_.least && parameter < *settings_.least) ||
-               (settings_.greatest && parameter > *settings_.greatest);
-    }
     bool end(TorusOutcome outcome, std::string detail) {
         outcome_ = outcome;
         detail_ = std::move(detail);
@@ -261,7 +258,7 @@ bool TorusBranch::Follower::start() {
         TorusPoint small = described(*there);
         if (!small.facts.admissible)
             return end(TorusOutcome::no_start, small.facts.reason);
-        if (is_beyond(small.parameter))
+        if (is_outside(settings_, small.parameter))
             return end(TorusOutcome::no_start, "tori are on the other side of the bound");
         next_length_ = share * first;
         outcome_ = TorusOutcome::going;
@@ -325,7 +322,7 @@ bool TorusBranch::Follower::step() {
         return end_without_step();
     const double parameter = there->u[problem_->parameter_place()];
     bool made = false;
-    if (is_beyond(parameter)) {
+    if (is_outside(settings_, parameter)) {
         made = end_at_bound(length, parameter);
     } else if (TorusPoint next = described(*there); next.facts.admissible) {
         made = take(*there, std::move(next));

@@ -194,10 +194,12 @@ private:
 TorusFacts facts_of(const TorusProblem& problem, std::span<const double> u, const Simulation& simulation) {
     TorusFacts facts;
     facts.tail = problem.tail_of(u);
-    facts.growth = growth_away(problem, u);
     facts.approach_speeds.assign(problem.setting().back->first().segments(), infinity);
     const TorusAngles angles(problem, u);
     MotionCheck(problem, angles, simulation, facts).check();
+    if (!facts.admissible)
+        return facts; // nothing else is asked of a torus that the model would not follow
+    facts.growth = growth_away(problem, u);
     facts.defect = largest_defect(problem, angles);
     return facts;
 }

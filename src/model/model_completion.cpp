@@ -215,12 +215,23 @@ void name_derived_modes(Model& model, const Places& places) {
     }
     for (const Slide& slide : model.slides)
         add("slides." + slide.name, slide.name);
-    for (const SlideCorner& corner : corners_of(model))
-        add("slides." + model.slides[corner.surfaces[0].above].name, corner.name);
     if (!model.contacts.empty())
         for (const std::size_t base : modes_with_contacts(model))
             for (const std::string& name : names_of_contact_modes(model, places, base))
                 add("contacts", name);
+}
+
+void name_corner_modes(Model& model, const Places& places) {
+    std::set<std::string> made;
+    for (const Slide& slide : model.slides)
+        made.insert(slide.name);
+    for (const SlideCorner& corner : corners_of(model)) {
+        const std::string path = "slides." + model.slides[corner.surfaces[0].above].name;
+        if (!made.insert(corner.name).second)
+            throw InputError(places.of(path), fmt::format("{} makes a second mode '{}'", path, corner.name),
+                             "rename one of the two for which it is made");
+        add_derived_mode(model, places, path, corner.name);
+    }
 }
 
 void choose_initial_mode(Model& model) {
@@ -256,6 +267,7 @@ void complete_model(Model& model, const Places& places) {
     check_contacts(made, places);
     check_coefficients(made, places);
     name_derived_modes(made, places);
+    name_corner_modes(made, places);
     made.declared = std::make_shared<const DeclaredParts>(parts_to_keep(made));
     complete_frictions(made, places, rubbing_modes(made));
     complete_slides(made, places);

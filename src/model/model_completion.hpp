@@ -18,6 +18,8 @@ void complete_model(Model& model, const Places& places);
 /// Appends, without rates, the modes that slides, frictions and contacts make, so that other parts may name them.
 /// @throws InputError when a name is taken
 void name_derived_modes(Model& model, const Places& places);
+/// The same for the modes that slide along two surfaces, once slides are complete. @throws InputError
+void name_corner_modes(Model& model, const Places& places);
 /// Returns the model as it was declared, with the present values. Its derived modes have no rates.
 /// @param model completed, with slides or frictions
 Model declared_model(const Model& model);

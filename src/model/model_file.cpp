@@ -67,6 +67,7 @@ public:
         mistakes_.attempt([&] { set_accelerations(); });
         mistakes_.attempt([&] { name_derived_modes(model_, places_); });
         read("slides", &ModelReader::read_slides);
+        mistakes_.attempt([&] { name_corner_modes(model_, places_); });
         read("friction", &ModelReader::read_frictions);
         read("transitions", &ModelReader::read_transitions);
         read("sections", &ModelReader::read_sections);

@@ -195,6 +195,34 @@ TEST(CornerModes, FollowTheOnlySolutionOfBothRelays) {
     EXPECT_LT(ended, 100);
 }
 
+/// Other parts of a model may name the mode, also when it is written and read again.
+TEST(CornerModes, AreNamedByOtherParts) {
+    const Relays relays{.drive = {"0.2", "0.1", "0"}, .matrix = {{{1, 0}, {0, 1}, {1, 3}}}};
+    std::string text = text_of(relays);
+    text.replace(text.rfind("'pp'"), 4, "'upper-right'");
+    const Model model = model_from(text);
+    EXPECT_EQ(model.modes[model.initial_mode].name, "upper-right");
+    const Model again = model_from(write_model(model));
+    EXPECT_EQ(write_model(again), write_model(model));
+    Experiment experiment(again, with_tolerance(1e-14));
+    EXPECT_EQ(experiment.run_from({0, 0, 0, 0}, again.initial_mode, 2).ending, Ending::end_time);
+    EXPECT_NEAR(experiment.state()[2], -(0.2 + 3 * 0.1) * 2, 1e-14);
+}
+
+/// A mode that a declaration makes has no rates yet when corners are looked for.
+TEST(CornerModes, AreNotLookedForBetweenDerivedModes) {
+    const Relays relays{.drive = {"0", "0", "0"}, .matrix = {{{1, 0}, {0, 1}, {0, 0}}}};
+    std::string text = text_of(relays);
+    for (std::size_t at = text.find("'mm'"); at != std::string::npos; at = text.find("'mm'", at))
+        text.replace(at, 4, "'upper'");
+    try {
+        model_from(text);
+        ADD_FAILURE() << "read";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("which a declaration makes"), std::string::npos) << error.what();
+    }
+}
+
 /// Utkin's controls: the same equations in all modes; a product of both controls makes the motion not unique.
 TEST(CornerModes, NeedEquationsThatAreLinearInBothControls) {
     const auto text = [](const std::string& rate) {
