@@ -78,6 +78,8 @@ bool Saddle::follow(std::span<const double> parameters) {
     problem_.clear();
     if (equations_.size() != scales_.size())
         return fail("a saddle needs a mode in which each state acts on the motion: no clock, and no state that stays");
+    if (!equations_.added_eigenvalues().empty())
+        return fail("a saddle in a mode that slides along a surface is not supported");
     periods_ = equations_.system().periods()(parameters);
     const std::vector<double> before = state_;
     if (!solve_for_state(parameters) || !find_spaces(parameters)) {

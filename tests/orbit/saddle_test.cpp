@@ -2,6 +2,7 @@
 
 #include "orbit/saddle.hpp"
 
+#include "graze/model/model_file.hpp"
 #include "orbit/saddle_focus.hpp"
 
 #include <gtest/gtest.h>
@@ -105,6 +106,21 @@ TEST(Saddle, RefusesWhatIsNone) {
               "the equilibrium has an eigenvalue on the imaginary axis: it is no saddle");
     EXPECT_EQ(problem_of("x = '1 + x^2', y = '-y'"), "no equilibrium is found where the orbit begins");
     EXPECT_NE(problem_of("x = 'x', y = '-y'", "1").find("no clock"), std::string::npos);
+}
+
+/// The equations keep a sliding motion to its surface by a decay of their own, which is none of the saddle's.
+TEST(Saddle, ASourceOfASlidingMotionIsNone) {
+    const Model model = parse_model(R"toml(states = { x = 0, y = 0, z = 0 }
+modes.left = { rates = { x = 1, y = "y - 0.1*z", z = "z + 0.1*y" } }
+modes.right = { rates = { x = -1, y = "y - 0.1*z", z = "z + 0.1*y" } }
+events.surface = "x"
+slides.along = { surface = "surface", between = ["left", "right"] }
+initial.mode = "right"
+)toml",
+                                    "source.toml");
+    Saddle saddle(System(model), *model.find_mode("along"), {}, Eigen::Vector3d(1, 1, 1));
+    EXPECT_FALSE(saddle.find(std::vector{0.0, 0.0, 0.0}, model.parameter_values()));
+    EXPECT_EQ(saddle.problem(), "a saddle in a mode that slides along a surface is not supported");
 }
 
 } // namespace graze::saddle_test
