@@ -2,6 +2,7 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/results/name_advice.hpp"
+#include "results/point_columns.hpp"
 #include "results/run_query.hpp"
 
 #include <fmt/format.h>
@@ -30,7 +31,11 @@ std::vector<std::string> texts_of(ResultFile::Rows rows) {
 } // namespace
 
 StoredRun::StoredRun(const ResultFile& from, const std::string& name, const Place& place)
-    : file(from), record(record_named(from, name, place)), model(stored_model(record)) {}
+    : file(from), record(record_named(from, name, place)), model(stored_model(record)) {
+    // Only in a model without parameters a family is followed along none.
+    if (record.is_followed() && record.coordinates.empty() && !model.independent_parameters().empty())
+        throw_contradiction(file.path(), fmt::format("run '{}' varies nothing", name));
+}
 
 std::vector<StoredColumn> StoredRun::columns(bool of_samples) const {
     const RunTables tables(record);

@@ -184,4 +184,18 @@ TEST_F(StoredRunTest, TakesNoTextForANumber) {
     EXPECT_THROW(run().extent("'abc' || omega"), InputError);
 }
 
+TEST_F(StoredRunTest, ABranchVariesAParameterIfTheModelHasAny) {
+    RunRecord branch = testing::run_of(load_model("impact-oscillator"), "b", "continue");
+    branch.coordinates.clear();
+    file_->begin_run(branch);
+    file_->flush();
+    try {
+        const StoredRun run(*file_, "b", {});
+        ADD_FAILURE() << "used";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(),
+                    ::testing::HasSubstr(file_->path() + ": the result file contradicts itself: run 'b'"));
+    }
+}
+
 } // namespace graze::stored_run_test
