@@ -208,7 +208,8 @@ export class SimulationView {
   ): { root: HTMLElement; show: (value: number) => void } {
     const slider = make("input", { type: "range", step: "any", "aria-label": name });
     const field = make("input", { type: "number", step: "any", "aria-label": `${name}, value` });
-    let range: [number, number] = [0, 1];
+    let range: [number, number] = [0, 1],
+      typing = false; // the field has a text that was not chosen yet
     const setRange = (around: number) => {
       range = rangeAround(around, slid);
       [slider.min, slider.max] = range.map(String);
@@ -220,7 +221,7 @@ export class SimulationView {
     };
     const show = (shownValue: number) => {
       setRange(shownValue);
-      field.value = String(Number(shownValue.toPrecision(8)));
+      if (!typing || document.activeElement !== field) field.value = String(Number(shownValue.toPrecision(8)));
     };
     show(value);
     slider.addEventListener("input", () => {
@@ -230,7 +231,9 @@ export class SimulationView {
     });
     // A pointer that is held must not lose its place: another range comes when it is released.
     slider.addEventListener("change", () => isAtEnd(Number(slider.value), range) && setRange(Number(field.value)));
+    field.addEventListener("input", () => (typing = true));
     field.addEventListener("change", () => {
+      typing = false;
       const chosen = Number(field.value);
       const possible = field.value !== "" && Number.isFinite(chosen) && (slid.kind !== "duration" || chosen > 0);
       if (!possible)

@@ -191,14 +191,7 @@ std::string StudySession::title() const {
 }
 
 std::optional<ResultFile> StudySession::results() const {
-    std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(results_path_, error);
-    if (status.type() == std::filesystem::file_type::not_found)
-        return std::nullopt;
-    // What is no file has no size, and is refused with the rest.
-    if (std::filesystem::is_regular_file(status) && std::filesystem::file_size(results_path_, error) == 0)
-        return std::nullopt;
-    return ResultFile(results_path_, ResultFile::Access::read);
+    return ResultFile::find(results_path_);
 }
 
 bool StudySession::can_compute() const {

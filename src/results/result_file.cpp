@@ -133,9 +133,11 @@ ResultFile::ResultFile(const std::string& path, Access access) {
         throw FileError(path, "there is no such result file", "run a study, which makes one");
     state_ = std::make_shared<State>(path, writing);
     const Database& database = state_->database;
+    database.execute("BEGIN"); // another process may just be writing these three for the first time
     const std::int64_t application = database.value("PRAGMA application_id");
     const std::int64_t format = database.value("PRAGMA user_version");
     const bool empty = database.value("SELECT count(*) FROM sqlite_master") == 0;
+    database.execute("COMMIT");
     if (empty && !writing)
         throw InputError(Place{path, 0, 0}, "the result file is empty", "run the study first");
     if (!empty && application != result_application)
@@ -185,6 +187,17 @@ ResultFile::ResultFile(const std::string& path, Access access) {
             }
         });
     state_->opened = true;
+}
+
+std::optional<ResultFile> ResultFile::find(const std::string& path) {
+    require_path(path);
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (status.type() == std::filesystem::file_type::not_found)
+        return std::nullopt;
+    if (Database(path, false).value("SELECT count(*) FROM sqlite_master") == 0)
+        return std::nullopt;
+    return ResultFile(path, Access::read);
 }
 
 const std::vector<std::string>& ResultFile::missing() const {

@@ -109,6 +109,30 @@ export const cases = [
     },
   ],
   [
+    "a motion that arrives while a value is typed leaves what is typed",
+    async (bench) => {
+      const { server, page } = await openModel(bench, "impact-oscillator");
+      await page.locator(".simulation summary", { hasText: "Initial state" }).click();
+      let arrive;
+      const typed = new Promise((done) => (arrive = done));
+      await page.route("**/api/simulate", async (route) => {
+        await typed;
+        await route.continue();
+      });
+      await setField(page.getByLabel("omega, value"), "4");
+      const x = page.getByLabel("x, value");
+      await x.fill("-0.07");
+      const answered = page.waitForResponse("**/api/simulate");
+      arrive();
+      await (await answered).finished();
+      await page.getByText(/^The motion was computed in/).waitFor();
+      await x.press("Tab");
+      await page.getByText("From the initial state that the sliders have.").waitFor();
+      assert.equal(await x.inputValue(), "-0.07");
+      await bench.stop(server);
+    },
+  ],
+  [
     "a motion that fails, or ends early, is told of, and what was chosen stays",
     async (bench) => {
       const { server, page } = await openModel(bench, "impact-oscillator");

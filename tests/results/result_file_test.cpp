@@ -269,6 +269,22 @@ TEST_F(ResultFileTest, OneProcessWritesAndOthersRead) {
     EXPECT_EQ(reader.point_count("r"), 1u);
 }
 
+TEST_F(ResultFileTest, AFileThatIsBeingCreatedIsFoundWholeOrNotAtAll) {
+    EXPECT_FALSE(ResultFile::find(path("none.sqlite")));
+    constexpr int files = 100;
+    const auto name = [](int i) { return fmt::format("{}.sqlite", i); };
+    std::jthread writer([&] {
+        for (int i = 0; i < files; ++i)
+            ResultFile(path(name(i)), ResultFile::Access::write).begin_run(run_named("r"));
+    });
+    for (int i = 0; i < files; ++i) {
+        std::optional<ResultFile> found;
+        while (!found)
+            ASSERT_NO_THROW(found = ResultFile::find(path(name(i))));
+        EXPECT_EQ(found->path(), path(name(i)));
+    }
+}
+
 TEST_F(ResultFileTest, AFullDiskIsReportedAndLosesNothing) {
     {
         ResultFile file(path(), ResultFile::Access::write);

@@ -115,6 +115,10 @@ public:
     ///         process writes to it, and for the paths "" and ":memory:", which SQLite would not keep as files
     ResultFile(const std::string& path, Access access);
 
+    /// The file, for reading; nothing where there is none, or where a writer has created it and written nothing yet.
+    /// @throws InputError as the constructor does
+    static std::optional<ResultFile> find(const std::string& path);
+
     /// All runs, in the order of their numbers. @throws InputError if the contents of the file contradict each other
     std::vector<RunRecord> runs() const;
     std::optional<RunRecord> find_run(const std::string& name) const;
