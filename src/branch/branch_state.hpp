@@ -57,7 +57,9 @@ public:
     std::vector<double> rates_at(const Orbit& orbit, std::size_t segment) const;
 
     /// Describes a point of the branch; empty where its equations are not defined.
-    std::optional<DescribedPoint> describe(const ContinuationPoint& at);
+    /// @param degeneracies whether those of the points along a curve are needed, which cost the most; their tests are
+    /// not numbers otherwise
+    std::optional<DescribedPoint> describe(const ContinuationPoint& at, bool degeneracies = true);
     /// The same at a fraction of the last step; empty also where Newton's method does not converge.
     std::optional<DescribedPoint> describe_between(double fraction);
     /// Returns the change of an orbit of the branch at a hundredth of the tolerance, relative to the scale of each
@@ -118,6 +120,7 @@ private:
     std::unique_ptr<Continuation> continuation_;
     /// Along families: changes of the coordinate, and of what is conserved; made when first needed.
     std::array<std::optional<OrbitQuantity>, 2> rises_;
+    std::vector<Degeneracy> degeneracies_; ///< at the point that was described last with them
     double arclength_ = 0, growth_ = 1;
 };
 
