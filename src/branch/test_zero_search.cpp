@@ -18,9 +18,9 @@ double place_of_zero(std::vector<TestValue> known) {
     for (std::size_t order = 1; order < known.size(); ++order)
         for (std::size_t i = 0; i + order < known.size(); ++i) {
             const double first = known[i].value, last = known[i + order].value;
-            known[i].fraction =
-                first == last ? not_a_number
-                              : (last * known[i].fraction - first * known[i + 1].fraction) / (last - first);
+            known[i].fraction = first == last
+                                    ? not_a_number
+                                    : (last * known[i].fraction - first * known[i + 1].fraction) / (last - first);
         }
     return known.front().fraction;
 }
@@ -39,14 +39,11 @@ std::optional<double> TestZeroSearch::interpolated() const {
     if (!std::isfinite(low_.value) || !std::isfinite(high_.value))
         return std::nullopt;
     const double slack = 0.25 * within_; // an end that has nearly the value zero may be the zero
-    const auto inside = [&](double place) {
-        return std::clamp(place, low_.fraction + slack, high_.fraction - slack);
-    };
+    const auto inside = [&](double place) { return std::clamp(place, low_.fraction + slack, high_.fraction - slack); };
     std::vector<TestValue> known{low_, high_};
     known.insert(known.end(), others_.begin(), others_.end());
     for (; known.size() > 2; known.pop_back())
-        if (const double place = place_of_zero(known);
-            place > low_.fraction - slack && place < high_.fraction + slack)
+        if (const double place = place_of_zero(known); place > low_.fraction - slack && place < high_.fraction + slack)
             return inside(place);
     return inside(place_of_zero(known));
 }

@@ -19,7 +19,7 @@ struct Found {
 
 Found zero_of(const std::function<double(double)>& test, bool outside = false) {
     TestZeroSearch search({0, test(0)}, {1, test(1)}, within,
-                      outside ? std::optional(TestValue{-1, test(-1)}) : std::nullopt);
+                          outside ? std::optional(TestValue{-1, test(-1)}) : std::nullopt);
     Found found;
     while (const auto next = search.next()) {
         EXPECT_GT(*next, search.low().fraction);
