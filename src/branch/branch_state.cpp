@@ -336,14 +336,17 @@ OrbitDirection BranchState::across_cuts(const Orbit& orbit, OrbitDirection direc
 /// True when a homoclinic orbit should begin and end at other distances from its saddle.
 bool BranchState::distances_need_renewal() const {
     const HomoclinicEnds* const ends = problem_->equations().homoclinic_ends();
-    return ends && growth_ == 1 && graze::distances_need_renewal(*ends);
+    constexpr double pause = 10; // steps of the greatest length
+    const bool tried = arclength(continuation_->point().arclength) <
+                       not_renewed_at_ + pause * settings_.continuation.largest_step;
+    return ends && !tried && graze::distances_need_renewal(*ends);
 }
 
 void BranchState::renew_pieces(const BranchPoint& from) {
     if (distances_need_renewal()) {
         const auto other = at_suitable_distances(*this, from.solution.orbit, from.tangent);
         if (!other || !restart(*other, from.tangent, from.arclength))
-            growth_ *= 10; // keep the old ones for some time
+            not_renewed_at_ = from.arclength; // keep the old ones for some time
         return;
     }
     const bool grown = pieces_need_renewal();

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -122,6 +123,8 @@ private:
     std::array<std::optional<OrbitQuantity>, 2> rises_;
     std::vector<Degeneracy> degeneracies_; ///< at the point that was described last with them
     double arclength_ = 0, growth_ = 1;
+    /// Arclength at which a homoclinic orbit could not begin and end at other distances last.
+    double not_renewed_at_ = -std::numeric_limits<double>::infinity();
 };
 
 } // namespace graze

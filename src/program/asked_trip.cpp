@@ -22,7 +22,7 @@ NamedEnd end_of(const LossPoint& point, const TripArguments& arguments) {
 AskedTrip asked_trip(const ResultFile& file, const std::string& point, const TripArguments& arguments,
                      const std::string& option) {
     const Place place{option, 0, 0};
-    StoredOrbit stored = find_stored_orbit(file, point, place);
+    StoredOrbit stored = find_closed_orbit(file, point, place);
     LossPoint loss = loss_point(stored, arguments.parameter, place, {"--parameter", 0, 0});
     NamedEnd end = end_of(loss, arguments);
     return {std::move(stored), std::move(loss), std::move(end)};

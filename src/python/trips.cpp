@@ -29,7 +29,7 @@ public:
     HeldLossPoint(const ResultFile& file, const std::string& point, const std::string& parameter,
                   const std::optional<std::string>& until, std::optional<double> greatest_speed) {
         attended([&](const std::function<bool()>&) {
-            const StoredOrbit stored = find_stored_orbit(file, point, of_point);
+            const StoredOrbit stored = find_closed_orbit(file, point, of_point);
             title_ = title_of(stored.record);
             point_ = std::make_shared<const LossPoint>(loss_point(stored, parameter, of_point, of_parameter));
             end_ = greatest_speed ? end_at_speed(*point_, *greatest_speed)

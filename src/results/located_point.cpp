@@ -46,7 +46,7 @@ LocatedValue located(const System& system, const SpecialPoint& point, const Mode
 
 LocatedPoint located_point(const ResultFile& file, const std::string& point, const std::string& parameter,
                            const Place& point_place, const Place& parameter_place) {
-    StoredOrbit stored = find_stored_orbit(file, point, point_place);
+    StoredOrbit stored = find_closed_orbit(file, point, point_place);
     const SpecialPoint held = with_condition(stored.record.point, point_place);
     Model model = model_at(stored.run.model, held.solution.orbit);
     const std::vector<ParameterId> candidates = moving_parameters(stored.run, parameter, parameter_place);

@@ -185,7 +185,7 @@ private:
                  return orbit(p).symmetry ? model_of(p).symmetries[*orbit(p).symmetry].name : "";
              });
         show(true, "stable", "", [this](const auto& p) { return truth(p.record.stable); });
-        show(moves, "multiplier", "", [this](const auto& p) { return multiplier_of(p.record.point.solution); });
+        show(moves, "multiplier", "", [this](const auto& p) { return multiplier_of(p.record); });
         show_complex(!for_people_, "multiplier", multipliers, &OrbitSolution::multipliers);
         show(for_people_ && eigenvalues > 0, "eigenvalues", "", [this](const auto& p) {
             return multipliers_text(p.record.point.solution.eigenvalues, brief_ ? 4 : digits_);
@@ -292,10 +292,13 @@ private:
     }
     /// The largest modulus. CSV and JSON have a number or a missing cell, people also read words, and six digits,
     /// enough to compare a multiplier with 1.
-    Cell multiplier_of(const OrbitSolution& solution) const {
+    Cell multiplier_of(const OrbitRecord& record) const {
+        const OrbitSolution& solution = record.point.solution;
         const double largest = solution.multipliers.empty() ? not_a_number : std::abs(solution.multipliers.front());
         if (std::isinf(largest))
             return for_people_ ? "infinite" : "inf";
+        if (for_people_ && record.torus) // which has none
+            return "";
         if (for_people_ && solution.multipliers.empty())
             return multipliers_text(solution, digits_);
         return for_people_ && std::isfinite(largest) ? rounded(largest, 6) : largest;

@@ -97,6 +97,14 @@ StoredOrbit find_stored_orbit(const ResultFile& file, const std::string& point, 
     return {StoredRun(file, having.front(), place), *look_up(file, *file.find_run(having.front()), point)};
 }
 
+StoredOrbit find_closed_orbit(const ResultFile& file, const std::string& point, const Place& place) {
+    StoredOrbit stored = find_stored_orbit(file, point, place);
+    if (stored.record.torus)
+        throw InputError(place, fmt::format("'{}' is a torus, whose motions do not close", point),
+                         "choose a point of a branch of periodic orbits");
+    return stored;
+}
+
 std::string title_of(const OrbitRecord& record) {
     return record.label.empty() ? fmt::format("point {}", record.number) : record.label;
 }

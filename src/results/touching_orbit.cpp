@@ -20,7 +20,7 @@ std::vector<ParameterId> moving_parameters(const StoredRun& run, const std::stri
 
 TouchingOrbit find_touching_orbit(const ResultFile& file, const std::string& point, const std::string& parameter,
                                   const Place& point_place, const Place& parameter_place) {
-    StoredOrbit stored = find_stored_orbit(file, point, point_place);
+    StoredOrbit stored = find_closed_orbit(file, point, point_place);
     const std::vector<ParameterId> candidates = moving_parameters(stored.run, parameter, parameter_place);
     return with_place(point_place, [&] {
         return TouchingOrbit{touching_map(System(stored.run.model), stored.record.point, candidates,

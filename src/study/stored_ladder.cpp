@@ -42,7 +42,7 @@ std::optional<double> first_of(const Branch& branch, PointType type) {
 } // namespace
 
 StoredLadder stored_ladder(const ResultFile& file, const LadderRequest& request) {
-    StoredOrbit first = find_stored_orbit(file, request.point, request.point_place);
+    StoredOrbit first = find_closed_orbit(file, request.point, request.point_place);
     const BranchSettings settings = ladder_settings(first.run, request);
     const System system(first.run.model);
     std::vector<StoredLadder::Leaving> leaving;

@@ -1,6 +1,10 @@
 #include "graze/branch/torus.hpp"
+#include "graze/results/located_point.hpp"
 #include "graze/results/stored_run.hpp"
+#include "graze/results/touching_orbit.hpp"
+#include "graze/study/stored_ladder.hpp"
 
+#include "base/message_of.hpp"
 #include "study_fixture.hpp"
 #include "trajectory/model_parts.hpp"
 
@@ -82,6 +86,17 @@ TEST_F(TorusRun, StoresARowForEachTorus) {
     auto unknown = file.query("SELECT count(*) FROM branch_tori WHERE unstable IS NOT NULL");
     ASSERT_TRUE(unknown.next());
     EXPECT_EQ(unknown.integer(0), 0);
+}
+
+TEST_F(TorusRun, ATorusIsNoOrbit) {
+    testing::expect_complete(run(start_of_study));
+    const ResultFile file(path_, ResultFile::Access::read);
+    const auto refused = [&](const auto& use) { return testing::message_of(use); };
+    EXPECT_THAT(refused([&] { find_closed_orbit(file, "tori:BD1", {}); }),
+                HasSubstr("'tori:BD1' is a torus, whose motions do not close"));
+    EXPECT_THAT(refused([&] { find_touching_orbit(file, "tori:BD1", "", {}, {}); }), HasSubstr("is a torus"));
+    EXPECT_THAT(refused([&] { located_point(file, "tori:BD1", "", {}, {}); }), HasSubstr("is a torus"));
+    EXPECT_THAT(refused([&] { stored_ladder(file, {.point = "tori:BD1"}); }), HasSubstr("is a torus"));
 }
 
 TEST_F(TorusRun, AMotionBeginsOnATorus) {

@@ -23,6 +23,8 @@ struct StoredOrbit {
 /// An orbit of a file, named LABEL (if only one run has it), RUN:LABEL, RUN:NUMBER, or RUN (if it has only one orbit).
 /// @throws InputError if no orbit or several orbits have this name
 StoredOrbit find_stored_orbit(const ResultFile& file, const std::string& point, const Place& place);
+/// The same. @throws InputError also for a torus, whose motions do not close
+StoredOrbit find_closed_orbit(const ResultFile& file, const std::string& point, const Place& place);
 
 /// The label, for example "GR1", or "point 17" if there is none.
 std::string title_of(const OrbitRecord& record);
