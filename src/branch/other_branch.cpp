@@ -97,7 +97,7 @@ OtherBranchSearch::OtherBranchSearch(BranchState& state, const Orbit& orbit, std
                                      double distance)
     : state_(state), u_(state.problem().unknowns_of(orbit)), direction_(std::move(direction)), distance_(distance),
       length_(state.problem().length_of(direction_)), sized_(sized_unknowns(state.problem().equations())),
-      was_simpler_(is_degenerate(state, orbit, same_orbit)) {
+      scales_(state.problem().equations().memory_of_scales()), was_simpler_(is_degenerate(state, orbit, same_orbit)) {
     const auto whole = vector_of(direction_).cwiseQuotient(vector_of(state.problem().scales())).norm();
     leaves_zero_ = size_of(vector_of(direction_)) < 0.5 * whole;
 }
@@ -112,16 +112,24 @@ bool OtherBranchSearch::next() {
         if (reaches_other(direction_, factors_of_distance[tried_++] * distance_))
             return true;
     OrbitProblem& problem = state_.problem();
-    while (leaves_zero_ && tried_ <= 2 * half_decades) {
-        const double factor = std::pow(10, 0.5 * (tried_++ - half_decades)) * distance_ / length_;
-        const Eigen::VectorXd move = factor * vector_of(direction_);
-        problem.equations().set_scales(vector_of(u_) + move);
+    // Where the nearest suitable distance leads to no orbit, or to one beyond a bound, shorter ones may do.
+    constexpr double suitable = 1e-2, most = 10, measurable = 1e-6;
+    constexpr int lengths = 2 * half_decades + 1;
+    while (leaves_zero_ && tried_ < 2 * lengths) {
+        const bool again = tried_ >= lengths;
+        const int exponent = (again ? 2 * lengths - 1 - tried_ : tried_) - half_decades;
+        ++tried_;
+        const Eigen::VectorXd move = std::pow(10, 0.5 * exponent) * distance_ / length_ * vector_of(direction_);
+        problem.equations().set_scales(vector_of(u_) + move, scales_);
         const std::vector<double> there = numbers_of(move);
-        if (reaches_other(there, problem.length_of(there)) && has_suitable_distance())
+        if (!reaches_other(there, problem.length_of(there)))
+            continue;
+        const double change = change_of_others();
+        if (again ? change > measurable && change <= suitable : change > suitable && change < most)
             return true;
     }
     if (leaves_zero_)
-        problem.equations().set_scales(vector_of(u_));
+        problem.equations().set_scales(vector_of(u_), scales_);
     return false;
 }
 
@@ -160,12 +168,10 @@ bool OtherBranchSearch::bends_back(const std::vector<double>& direction, double 
     return bends || !continuation.start_along(u_, direction, distance);
 }
 
-/// True when an orbit on another branch has a suitable distance: the other states and the parameter must have changed
-/// measurably, but not too much. The states that leave zero cannot tell.
-bool OtherBranchSearch::has_suitable_distance() const {
-    constexpr double least = 1e-2, most = 10; // in units of the scales
-    const double bent = size_of(vector_of(u_) - vector_of(state_.continuation().point().u));
-    return bent > least && bent < most;
+/// Returns by how much the other states and the parameter have changed, in units of their scales: that tells the
+/// distance from the original branch, which the states that leave zero cannot tell.
+double OtherBranchSearch::change_of_others() const {
+    return size_of(vector_of(u_) - vector_of(state_.continuation().point().u));
 }
 
 } // namespace graze

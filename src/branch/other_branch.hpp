@@ -21,7 +21,8 @@ std::vector<BranchStart> along_null_vector(const System& system, Orbit orbit, co
 
 /// Searches for an orbit on another branch through a solution. Newton's method may return to the original branch; then
 /// other distances are tried. Where states leave zero that are zero all along the original branch, their size is
-/// unknown, so many orders of magnitude are tried, each with its own scales.
+/// unknown, so many orders of magnitude are tried, each with its own scales: at first those at which the other states
+/// change clearly, then shorter ones, since an orbit may lie beyond a bound.
 class OtherBranchSearch {
 public:
     /// @param direction of the other branch, in unknowns of the current problem; @param distance of the first point
@@ -34,13 +35,14 @@ public:
 private:
     bool reaches_other(const std::vector<double>& direction, double distance);
     bool bends_back(const std::vector<double>& direction, double distance);
-    bool has_suitable_distance() const;
+    double change_of_others() const;
     double size_of(const Eigen::VectorXd& change) const;
 
     BranchState& state_;
     std::vector<double> u_, direction_;
     double distance_, length_; ///< length of the direction
     Eigen::VectorXd sized_;    ///< 1 for unknowns whose scales are their own size, 0 for others
+    OrbitScales scales_;       ///< before the search
     bool was_simpler_, leaves_zero_ = false, came_back_ = false;
     int tried_ = 0;
 };

@@ -55,6 +55,19 @@ NamedValue named_value(const Model& model, const std::string& text, const Place&
     return result;
 }
 
+bool are_same_expression(const Model& model, const std::string& one, const std::string& other) {
+    Model scratch = model;
+    const Scope scope = scope_of(scratch);
+    const auto expanded = [&](const std::string& text) {
+        return scratch.expand(parse_expression(*scratch.graph, text, scope));
+    };
+    try {
+        return expanded(one) == expanded(other);
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
 double value_of_text(const Model& model, std::string_view text, const Place& place) {
     if (is_not_a_finite_number(text))
         throw InputError(place, fmt::format("'{}' is not a finite number", trimmed(text, blanks)),

@@ -59,6 +59,12 @@ public:
     bool has_size(std::size_t state) const { return orbit_scales_.has_size(state); }
     /// Recomputes the scales. Existing evaluations keep the scales with which they were made.
     void set_scales(const Eigen::VectorXd& unknowns);
+    /// The same with the memory of an earlier choice of scales, which forgets larger ones since.
+    void set_scales(const Eigen::VectorXd& unknowns, const OrbitScales& memory) {
+        orbit_scales_ = memory;
+        set_scales(unknowns);
+    }
+    const OrbitScales& memory_of_scales() const { return orbit_scales_; }
 
     OrbitEvaluation evaluation() const { return {layout_.states(), layout_.free()}; }
     /// Evaluates the equations and their derivatives. @return false where they are undefined; `result.problem` says why

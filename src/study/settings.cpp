@@ -161,6 +161,23 @@ std::string settings_of(const StudyRun& run) {
     return fields.text();
 }
 
+namespace {
+
+/// Whether settings say the same: texts may be the same expressions in another order.
+bool say_the_same(const Json& one, const Json& other, const Model& model) {
+    if (one.kind != other.kind || one.truth != other.truth || one.names != other.names ||
+        one.items.size() != other.items.size())
+        return false;
+    if (one.text != other.text && !(one.kind == Json::Kind::text && are_same_expression(model, one.text, other.text)))
+        return false;
+    for (std::size_t i = 0; i < one.items.size(); ++i)
+        if (!say_the_same(one.items[i], other.items[i], model))
+            return false;
+    return true;
+}
+
+} // namespace
+
 StudyRun run_of(const AskedRun& asked, Model model) {
     StudyRun run;
     run.name = asked.name;
@@ -182,7 +199,8 @@ StudyRun run_of(const AskedRun& asked, Model model) {
     run.parameters_place = run.place;
     take_units(run, asked.units);
     check_run(run, fields);
-    if (settings_of(run) != asked.settings) {
+    if (const std::string again = settings_of(run);
+        again != asked.settings && !say_the_same(parse_json(again, run.place), json, run.model)) {
         if (asked.version != GRAZE_VERSION)
             throw InputError(run.place, "the stored settings say more than this version of graze knows",
                              fmt::format("use graze {}, which wrote them", asked.version));

@@ -249,6 +249,24 @@ TEST(Family, OfHenonAndHeilesChangesWhereTheOrbitAIsKnownTo) {
     }
 }
 
+/// Orbits out of the axis, of which the scale is unknown where they leave it.
+TEST(Family, OfHenonAndHeilesBranchesOutOfTheAxis) {
+    const Model model = henon_heiles();
+    const BranchSettings settings = along("energy", 0.01, 0.1666);
+    const Branch axis = follow_branch(System(model), given_orbit(model, "rise", {{0, 0, 0, 0.3}}, {6.3}), settings);
+    ASSERT_GE(axis.special.size(), 5U) << names(axis) << ' ' << axis.detail;
+    for (std::size_t i = 0; i < 5; ++i)
+        for (const BranchStart& start : branches_at(System(model), axis.special[i], settings)) {
+            const Branch other = follow(model, start, settings);
+            EXPECT_EQ(other.outcome, BranchOutcome::bound) << axis.special[i].parameter << ' ' << other.detail;
+            for (const BranchPoint& one : other.points) {
+                const std::vector<double>& out = one.solution.orbit.starts[0];
+                EXPECT_GT(std::abs(out[0]) + std::abs(out[2]), 1e-4) << "out of the axis";
+                EXPECT_GT(one.parameter, axis.special[i].parameter);
+            }
+        }
+}
+
 constexpr double moon = 0.01215; ///< mass of the moon, that of earth and moon being 1
 
 /// The restricted problem of three bodies in the rotating frame of earth and moon.

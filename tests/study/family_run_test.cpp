@@ -46,6 +46,31 @@ protected:
     FamilyRun() { folder_.write("model.toml", spring); }
 };
 
+/// Sums and products are printed in an order that depends on what was read before.
+TEST_F(FamilyRun, ItsConservedQuantityIsReadAgainInAnyOrder) {
+    folder_.write("model.toml", R"([states]
+x = 0
+y = 0.1
+u = 0
+v = 0
+[modes.free]
+rates = { x = "u", y = "v", u = "-x - 2*x*y", v = "-y - x^2 + y^2" }
+[sections.top]
+function = "v"
+direction = "falling"
+[conserved]
+energy = "(u^2 + v^2)/2 + (x^2 + y^2)/2 + x^2*y - y^3/3"
+)");
+    testing::expect_complete(run(head + R"([runs.axis]
+kind = "continue"
+signature = "top"
+along = { energy = [0.002, 0.01] }
+)"));
+    const Study stored = stored_study(ResultFile(path_, ResultFile::Access::read));
+    ASSERT_EQ(stored.runs.size(), 1U);
+    EXPECT_TRUE(stored.runs[0].branch().settings.family);
+}
+
 TEST_F(FamilyRun, StoresItsCoordinateAndStartsFurtherRuns) {
     testing::expect_complete(run(head + R"([runs.free]
 kind = "continue"

@@ -169,7 +169,7 @@ TEST_F(StoredStudyTest, TellsWhatIsWrongWithSettings) {
     EXPECT_THAT(changed("\"omega\"", "\"omicron\""), HasSubstr("'omicron'"));
     EXPECT_THAT(changed("\"kind\":\"sweep\"", "\"kind\":\"basin\""), HasSubstr("settings"));
     EXPECT_THAT(changed("\"cycles\":60", "\"cycles\":60,\"new\":1"), HasSubstr("changed afterwards"));
-    EXPECT_THAT(changed("\"cycles\":60", "\"cycles\": 60"), HasSubstr("change the study file instead"));
+    EXPECT_THAT(changed("\"recurrence\":0.001", "\"recurrence\":1e-3"), HasSubstr("change the study file instead"));
     RunRecord later = good;
     later.version = "99.1.0";
     later.settings.insert(1, "\"new\":1,");
