@@ -1,6 +1,7 @@
 #include "branch/homoclinic_end.hpp"
 
 #include "branch/bounds.hpp"
+#include "flow/cyclic.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/branch/curve_start.hpp"
 #include "orbit/eigen_index.hpp"
@@ -33,12 +34,14 @@ bool expands(const OrbitEquations& equations, const OrbitEvaluation& at) {
            });
 }
 
-/// True when the period rises along the branch.
-std::string in_words(const Model& model, const SpecialPoint& point, const HomoclinicSolution& found,
+std::string in_words(const System& system, const SpecialPoint& point, const HomoclinicSolution& found,
                      ParameterId parameter) {
+    const Model& model = system.model();
+    const std::vector<double> periods = system.periods()(point.solution.orbit.parameters);
     std::vector<std::string> place;
     for (std::size_t i = 0; i < found.saddle.size(); ++i)
-        place.push_back(fmt::format("{} = {:.6g}", model.states[i].name, found.saddle[i]));
+        place.push_back(
+            fmt::format("{} = {:.6g}", model.states[i].name, within_period(found.saddle[i], periods[i])));
     const auto& eigenvalues = point.solution.eigenvalues;
     const auto growing = std::ranges::find_if(eigenvalues, [](auto one) { return one.real() < 0; });
     return fmt::format("{} +- {:.1e}; saddle {}; {}; saddle quantity {:.6g}",
@@ -89,7 +92,10 @@ std::optional<SpecialPoint> HomoclinicEnd::find(BranchState& state, const Branch
     point.parameter = found.parameter;
     point.bracket = std::minmax(here.parameter, found.parameter);
     point.tangent = {};
-    point.detail = in_words(state.model(), point, found, settings.parameter);
+    if (!settings.monitors.empty() && !refer_to_segments(settings.monitors)) // of which it has others
+        point.monitors = OrbitMonitors(state.system(), found.solution.orbit.signature, settings.monitors,
+                                       settings.orbit.tolerance)(found.solution.orbit);
+    point.detail = in_words(state.system(), point, found, settings.parameter);
     return point;
 }
 

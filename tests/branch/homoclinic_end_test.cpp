@@ -3,6 +3,7 @@
 
 #include "follow.hpp"
 
+#include "graze/model/named_value.hpp"
 #include "orbit/solve_homoclinic.hpp"
 
 #include <gtest/gtest.h>
@@ -216,10 +217,17 @@ TEST(HomoclinicEnd, PendulumTurnsOverFromItsUpperPositionToTheNext) {
                                 .rates = "q = 'v', v = '-sin(q) - v*(h + m)'",
                                 .more = "[sections.below]\nstate = 'q'\nvalue = 0\n"}
                             .model();
-    const Branch branch =
-        follow_branch(System(model), settled(model, "below").orbit, in_parameter(model, "m", -1, 1, 1));
+    BranchSettings settings = in_parameter(model, "m", -1, 1, 1);
+    Monitor& fastest = settings.monitors.emplace_back();
+    fastest.name = "fastest";
+    fastest.kind = Monitor::Kind::maximum;
+    fastest.expression = named_value(model, "v", {}).value;
+    const Branch branch = follow_branch(System(model), settled(model, "below").orbit, settings);
     const SpecialPoint end = end_of(branch);
     expect_value(end, 0, 1e-11);
+    ASSERT_EQ(end.monitors.size(), 1U); // of the homoclinic orbit, not of the last periodic one
+    EXPECT_NEAR(end.monitors[0], 2, 1e-11);
+    EXPECT_NE(end.detail.find("q = 3.14159"), std::string::npos) << end.detail;
     // v = 2 cos(q/2) = 2 sech(t) takes log(16 / v^2).
     const double begin = std::abs(end.solution.orbit.starts[0][1]);
     EXPECT_NEAR(end.solution.orbit.return_time(), std::log(16 / (begin * begin)), 1e-4);
