@@ -19,12 +19,12 @@ class CycleMap:
 
         x -> P (x + B s),   s = sqrt(-2 a h) where h = C + g x is negative, and 0 elsewhere
 
-    (or B (-h)^(3/2) or B (-h) in place of B s, as `order` says).
+    (or B (-h)^(3/2), B (-h) or B h^2 in place of B s, as `order` says).
 
-    Attributes: `order` ("square-root", "three-halves", "linear"); `active`, the names of the active states; `matrix`
-    (P), `impact` (B), `gradient` (g), `acceleration` (a), `restitution`; `scales` of the active states; `state`, all
-    states at the touch; `multipliers`, the largest first; `clearance_rate`, the derivative of C by the parameter (or
-    None), and `steady`, that of x; `time` of a cycle, `half` whether it is half an orbit.
+    Attributes: `order` ("square-root", "three-halves", "linear", "quadratic"); `active`, the names of the active
+    states; `matrix` (P), `impact` (B), `gradient` (g), `acceleration` (a), `restitution`; `scales` of the active
+    states; `state`, all states at the touch; `multipliers`, the largest first; `clearance_rate`, the derivative of C by
+    the parameter (or None), and `steady`, that of x; `time` of a cycle, `half` whether it is half an orbit.
     """
 
     def __init__(self, core: Any, active: List[str]) -> None:

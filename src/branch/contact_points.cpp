@@ -169,6 +169,8 @@ std::unique_ptr<OrbitCondition> condition_of_grazing(const OrbitEquations& equat
 
 std::vector<BranchStart> leave_grazing(const System& system, const SpecialPoint& point,
                                        const BranchSettings& settings) {
+    if (is_adding_sliding(system, point))
+        return leave_order(system, point, settings);
     return {point.at_end ? with_one_contact_fewer(system, point, settings)
                          : with_one_more_contact(system, point, settings)};
 }

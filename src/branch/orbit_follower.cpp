@@ -10,6 +10,7 @@
 #include "branch/reordering.hpp"
 #include "branch/shrinking_orbit.hpp"
 #include "branch/simpler_end.hpp"
+#include "branch/sliding_name.hpp"
 #include "branch/touch_curve_start.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
@@ -412,7 +413,8 @@ private:
             end_at(i, here_.point);
             // With another signature, a kept point that belongs to a segment is only found again if it is a touch.
             const auto& kept = state_.settings().kept;
-            const bool reordering = state_.settings().reorder && !is_grazing(type) &&
+            const bool begins_other = is_grazing(type) && !is_adding_sliding(state_.system(), found_[i]);
+            const bool reordering = state_.settings().reorder && !begins_other &&
                                     (!kept || !kind_of(kept->type).limits || keeps_touch(state_.settings()));
             if (!reordering || !continue_reordered(found_[i]))
                 return finish_at(i, BranchOutcome::unphysical, reason); // without the attempts beyond

@@ -2,6 +2,7 @@
 
 #include "base/concatenated.hpp"
 #include "branch/point_kind.hpp"
+#include "branch/sliding_name.hpp"
 #include "orbit/newton.hpp"
 #include "orbit/orbit_flow.hpp"
 
@@ -86,6 +87,16 @@ void drop_spurious_crossings(BranchState& state, std::vector<SpecialPoint>& foun
         const bool contact_ends = other.type == PointType::vanishing || (is_grazing(other.type) && other.at_end);
         return contact_ends && ((multiplier && std::abs(one.arclength - other.arclength) < same_place * length) ||
                                 (crossing && is_singular_at(state, other)));
+    });
+}
+
+/// Drops contacts of no speed where the motion between two parts of a slide vanishes, at which its equations are
+/// singular: the contacts at both of its ends are only found near it.
+void drop_ends_of_excursions(BranchState& state, std::vector<SpecialPoint>& found, double length) {
+    constexpr double near = 0.01; // share of the step
+    drop_near(found, near * length, [&](const SpecialPoint& one, const SpecialPoint& other) {
+        return one.type == PointType::grazing && other.type == PointType::vanishing &&
+               is_adding_sliding(state.system(), other) && is_adding_sliding(state.system(), one);
     });
 }
 
@@ -200,6 +211,7 @@ std::vector<std::vector<double>> differences_of_halves(BranchState& state, const
 void drop_consequences(BranchState& state, std::vector<SpecialPoint>& found, double length) {
     merge(found, length);
     drop_spurious_crossings(state, found, length);
+    drop_ends_of_excursions(state, found, length);
     drop_multipliers_of_resonances(found, length);
     drop_parts_of_sensitivity(found, length);
     drop_folds_at_return(state, found, length);

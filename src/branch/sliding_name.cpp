@@ -13,6 +13,8 @@ namespace graze {
 
 namespace {
 
+constexpr char adding[] = "adding-sliding";
+
 /// Returns whether a slide has made this mode.
 bool is_of_slide(const Model& model, std::size_t mode) {
     return model.modes[mode].derived && find_named(model.slides, model.modes[mode].name).has_value();
@@ -53,7 +55,7 @@ std::string name_of_touch(const System& system, const SpecialPoint& special) {
     const std::size_t mode = orbit.signature[special.segment].mode;
     if (is_of_slide(model, mode)) {
         const auto& exits = model.modes[mode].slides_on.front().exits;
-        return std::ranges::find(exits, special.event) != exits.end() ? "adding-sliding" : "";
+        return std::ranges::find(exits, special.event) != exits.end() ? adding : "";
     }
     const Alternative* const sliding = way_into_sliding(model, mode, special.event);
     if (sliding == nullptr)
@@ -80,7 +82,7 @@ std::string name_of_edge(const System& system, const SpecialPoint& special) {
 }
 
 /// A sliding segment of no duration: the orbit then touches the surface, or crosses it, without sliding. An excursion
-/// of no duration to the other side: the orbit then slides at once.
+/// of no duration to the other side: the orbit then slides at once, or goes on sliding.
 std::string name_of_vanishing(const System& system, const SpecialPoint& special) {
     const auto& signature = special.solution.orbit.signature;
     const std::size_t count = signature.size(), mode = signature[special.segment].mode,
@@ -88,6 +90,8 @@ std::string name_of_vanishing(const System& system, const SpecialPoint& special)
                       after = signature[(special.segment + 1) % count].mode;
     if (is_of_slide(system.model(), mode))
         return before == after ? "grazing-sliding" : "crossing-sliding";
+    if (before == after && is_of_slide(system.model(), before))
+        return adding;
     const bool slides_after = is_of_slide(system.model(), after) && !is_of_slide(system.model(), before);
     return slides_after && before != mode ? "switching-sliding" : "";
 }
@@ -113,6 +117,10 @@ std::string sliding_name(const System& system, const SpecialPoint& special) {
     default:
         return "";
     }
+}
+
+bool is_adding_sliding(const System& system, const SpecialPoint& special) {
+    return sliding_name(system, special) == adding;
 }
 
 } // namespace graze

@@ -12,4 +12,8 @@ namespace graze {
 /// Empty for other points. @param special a grazing, guard or vanishing point, complete but for its details
 std::string sliding_name(const System& system, const SpecialPoint& special);
 
+/// True at adding-sliding, where a slide becomes two with a short motion off the surface between them. The orbit goes
+/// on through it; its equations are singular there to higher order in the duration of that motion.
+bool is_adding_sliding(const System& system, const SpecialPoint& special);
+
 } // namespace graze

@@ -148,17 +148,26 @@ private:
         return true;
     }
 
-    /// @param change derivatives of a jump minus the identity
+    /// True when states beside the touch do not change that are on the surface with zero speed and, where the touching
+    /// mode slides, on the surfaces along which it does. @param change derivatives of a jump minus the identity
     bool is_identity_without_speed(const Eigen::MatrixXd& change) const {
-        constexpr double small = 1e-6;
+        constexpr double small = 1e-6, independent = 1e-9;
         const Eigen::VectorXd& scales = sizes_.scales();
         const Eigen::MatrixXd scaled = scales.cwiseInverse().asDiagonal() * change * scales.asDiagonal();
-        Eigen::MatrixXd normals(n_, 2);
-        normals.col(0) = geometry_.gradient.head(n_).cwiseProduct(scales).normalized();
-        normals.col(1) = geometry_.rate_gradient.head(n_).cwiseProduct(scales).normalized();
-        normals.col(1) -= normals.col(0).dot(normals.col(1)) * normals.col(0);
-        normals.col(1).normalize();
-        const Eigen::MatrixXd rest = scaled - scaled * normals * normals.transpose();
+        std::vector<Eigen::VectorXd> normals{geometry_.gradient.head(n_), geometry_.rate_gradient.head(n_)};
+        for (const SlidingSurface& along : model_.modes[touch_.mode].slides_on) {
+            const std::vector<double> values = system_.event(along.surface)(inputs_);
+            normals.emplace_back(Eigen::Map<const Eigen::VectorXd>(values.data() + 1, n_));
+        }
+        Eigen::MatrixXd rest = scaled;
+        for (std::size_t i = 0; i < normals.size(); ++i) {
+            normals[i] = normals[i].cwiseProduct(scales).normalized();
+            for (std::size_t j = 0; j < i; ++j)
+                normals[i] -= normals[j].dot(normals[i]) * normals[j];
+            const double left = normals[i].norm();
+            normals[i] *= left > independent ? 1 / left : 0;
+            rest -= scaled * normals[i] * normals[i].transpose();
+        }
         return rest.norm() <= small * (1 + scaled.norm());
     }
 
@@ -277,12 +286,9 @@ private:
         const double value = gradient.dot(gain());
         const bool on_surface = sizes_.is_zero_gain(value, gradient);
         if (sizes_.is_zero_rate(rate, gradient, field_)) {
-            set_reason(
-                is_slid_along(event)
-                    ? fmt::format("the motion slides along the surface of event '{}', which it would leave for a "
-                                  "short time: the orbit persists, since the effect is of higher order",
-                                  model_.events[event].name)
-                    : fmt::format("event '{}' is touched as well", model_.events[event].name));
+            if (chain_.contacts.size() == 1 && is_slid_along(event))
+                chain_.slid_along = event;
+            set_reason(fmt::format("event '{}' is touched as well", model_.events[event].name));
             return never;
         }
         if (rate > 0)

@@ -100,25 +100,6 @@ Derivatives derivatives_at(const System& system, const TouchState& touch, std::s
     return result;
 }
 
-/// True when a jump leaves all states of the surface near the touch unchanged, to first order.
-bool is_identity_on_surface(const System& system, std::size_t jump, const TouchState& touch,
-                            const TouchGeometry& geometry, const TouchSizes& sizes) {
-    const System::CompiledJump& compiled = system.jump(jump);
-    if (compiled.identity)
-        return true;
-    const Eigen::Index n = index(touch.state.size());
-    const std::vector<double> entries = compiled.jacobian(concatenated(touch.state, touch.parameters));
-    Eigen::MatrixXd change = Eigen::MatrixXd::Zero(n, n);
-    for (const std::size_t i : compiled.changed)
-        change(index(i), index(i)) = -1;
-    for (std::size_t k = 0; k < compiled.entries.size(); ++k)
-        if (index(compiled.entries[k].column) < n)
-            change(index(compiled.entries[k].row), index(compiled.entries[k].column)) += entries[k];
-    change -= change * sizes.off_surface(geometry) * geometry.gradient.head(n).transpose();
-    const Eigen::VectorXd& units = sizes.scales();
-    return (units.cwiseInverse().asDiagonal() * change * units.asDiagonal()).norm() <= small_change;
-}
-
 /// Returns why the jumps into the sliding mode and back are not negligible; empty if they are.
 std::string problem_of_effect(const TouchFunctions& functions, const TouchState& touch, const TouchGeometry& geometry,
                               const TouchSizes& sizes, std::span<const std::size_t> contacts,
@@ -145,6 +126,24 @@ std::string problem_of_effect(const TouchFunctions& functions, const TouchState&
 }
 
 } // namespace
+
+bool is_identity_on_surface(const System& system, std::size_t jump, const TouchState& touch,
+                            const TouchGeometry& geometry, const TouchSizes& sizes) {
+    const System::CompiledJump& compiled = system.jump(jump);
+    if (compiled.identity)
+        return true;
+    const Eigen::Index n = index(touch.state.size());
+    const std::vector<double> entries = compiled.jacobian(concatenated(touch.state, touch.parameters));
+    Eigen::MatrixXd change = Eigen::MatrixXd::Zero(n, n);
+    for (const std::size_t i : compiled.changed)
+        change(index(i), index(i)) = -1;
+    for (std::size_t k = 0; k < compiled.entries.size(); ++k)
+        if (index(compiled.entries[k].column) < n)
+            change(index(compiled.entries[k].row), index(compiled.entries[k].column)) += entries[k];
+    change -= change * sizes.off_surface(geometry) * geometry.gradient.head(n).transpose();
+    const Eigen::VectorXd& units = sizes.scales();
+    return (units.cwiseInverse().asDiagonal() * change * units.asDiagonal()).norm() <= small_change;
+}
 
 /// The motion reaches the surface at the time -s/a - j s^2/(6 a^3), with j the third rate of the function. There K = J
 /// - 1, which is zero on the touching states, shifts it. The shift is carried by the field to time 0 and compared

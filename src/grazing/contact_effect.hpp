@@ -21,6 +21,9 @@ struct ContactChain {
     std::vector<std::size_t> modes;    ///< modes after them; the last is the touching mode
     bool only_changes_modes = true;    ///< no jump changes the states
     bool leaves_by_surface = true;     ///< every contact after the first happens at the touched surface
+    /// Event of the surface along which the touching mode slides, if that is left for a time that is short as well, but
+    /// is not determined by the gain.
+    std::optional<std::size_t> slid_along;
 };
 /// Follows the transitions that a contact at a touch starts.
 ContactChain follow_contact(const TouchFunctions& functions, const TouchState& touch, const TouchGeometry& geometry,
@@ -49,6 +52,11 @@ ContactEffect compliant_contact(const TouchFunctions& functions, const TouchStat
 /// @param mode the sliding mode; @param contacts transitions to it and back
 ContactEffect sliding_contact(const TouchFunctions& functions, const TouchState& touch, const TouchGeometry& geometry,
                               const TouchSizes& sizes, std::size_t mode, std::span<const std::size_t> contacts);
+
+/// True when a jump leaves all states of a surface near the touch unchanged, to first order.
+/// @param geometry of the surface's function
+bool is_identity_on_surface(const System& system, std::size_t jump, const TouchState& touch,
+                            const TouchGeometry& geometry, const TouchSizes& sizes);
 
 /// Returns the s^2 coefficient of the shift of the states at a touch with a single jump: the next order of the
 /// square-root map. @param transition of the touching mode that returns to the same mode

@@ -6,6 +6,7 @@
 #include "graze/base/require.hpp"
 #include "grazing/contact_effect.hpp"
 #include "grazing/return_map.hpp"
+#include "grazing/slide_excursion.hpp"
 
 #include <fmt/format.h>
 
@@ -86,10 +87,26 @@ void project_onto_touch(const TouchFunctions& functions, TouchState& touch, Touc
     }
 }
 
+/// Sets the map of a slide that the motion leaves for a short time.
+void add_excursion(DiscontinuityMap& map, const TouchFunctions& functions, const TouchGeometry& geometry,
+                   const TouchSizes& sizes, const ContactChain& chain) {
+    const ContactEffect effect = slide_excursion(functions, map.touch, geometry, sizes, chain);
+    map.reason = effect.reason;
+    if (!map.reason.empty())
+        return;
+    map.order = MapOrder::quadratic;
+    map.direction = without_remnants(effect.gain, sizes.scales());
+    const Model& model = functions.system().model();
+    const Transition* const back = model.find_transition(chain.modes.front(), *chain.slid_along);
+    map.contacts.push_back(static_cast<std::size_t>(back - model.transitions.data()));
+    constexpr double times = 3; // the time from the edge to the touch
+    map.time = times / map.acceleration;
+}
+
 } // namespace
 
 std::string_view name_of(MapOrder order) {
-    constexpr std::string_view names[] = {"none", "square-root", "three-halves", "linear"};
+    constexpr std::string_view names[] = {"none", "square-root", "three-halves", "linear", "quadratic"};
     return enumerator_name(names, order, "none");
 }
 
@@ -97,6 +114,7 @@ double DiscontinuityMap::by_depth(double depth) const {
     return order == MapOrder::square_root    ? std::sqrt(2 * acceleration * depth)
            : order == MapOrder::three_halves ? depth * std::sqrt(depth)
            : order == MapOrder::linear       ? depth
+           : order == MapOrder::quadratic    ? depth * depth
                                              : 0;
 }
 
@@ -134,7 +152,9 @@ DiscontinuityMap local_map(const TouchFunctions& functions, const TouchState& to
     map.time = chain.time;
     map.reason = chain.reason;
     map.ends = chain.ends;
-    if (!map.reason.empty())
+    if (chain.slid_along && asked == AskedContacts::all)
+        add_excursion(map, functions, geometry, sizes, chain);
+    if (!map.reason.empty() || map.exists())
         return map;
     if (!sizes.is_zero_gain(chain.gain)) {
         map.order = MapOrder::square_root;

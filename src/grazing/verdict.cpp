@@ -276,6 +276,14 @@ void classify_sliding(const CycleMap& map, Verdict& verdict) {
     verdict.in = motion.period;
 }
 
+/// The square of the depth does not change the derivative of the map: a stable orbit remains.
+void classify_excursion(const CycleMap& map, Verdict& verdict) {
+    if (map.clearance_rate)
+        verdict.speed_factor = std::sqrt(2 * map.contact.acceleration * std::abs(*map.clearance_rate));
+    verdict.outcome = GrazingOutcome::persists;
+    verdict.attractor = AttractorKind::periodic;
+}
+
 } // namespace
 
 std::string_view name_of(GrazingOutcome outcome) {
@@ -318,6 +326,8 @@ Verdict verdict_of(const CycleMap& map, std::size_t shown) {
         classify_rigid(map, verdict);
     else if (map.contact.order == MapOrder::linear)
         classify_sliding(map, verdict);
+    else if (map.contact.order == MapOrder::quadratic)
+        classify_excursion(map, verdict);
     else
         classify_compliant(map, verdict);
     return verdict;

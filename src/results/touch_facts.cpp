@@ -43,6 +43,8 @@ OrderTexts order_texts(MapOrder order) {
         return {"a rigid contact", "what it gains by approach speed", "the next order: by its square"};
     case MapOrder::linear:
         return {"sliding or sticking for a moment", "what it gains by depth", "the next order: by depth^(3/2)"};
+    case MapOrder::quadratic:
+        return {"sliding that is left for a moment", "what it gains by depth^2", ""};
     case MapOrder::three_halves:
     case MapOrder::none:
         break;

@@ -221,6 +221,30 @@ void Trajectory::sum_term_sizes(std::size_t w) {
                 terms_[k] += slope * std::abs(series_[gradient.states[i]][k]);
 }
 
+/// Returns whether a function that is zero at the start of an arc seems to fall, but rises as soon as round-off of the
+/// vector field is outgrown: a motion that leaves a slide leaves the surface with no speed, and where the push of the
+/// side that it enters falls slowly through zero, terms of the field cancel to a remainder of either sign.
+/// Requires the inputs of the state.
+bool Trajectory::is_cancelled_fall(std::size_t w, double step) {
+    const std::size_t event = compiled_mode_->watched[w];
+    const auto c = event_series(w);
+    if (event == start_event_ || is_due(event) || c.size() < 3 || !(c[1] < 0 && -c[1] < most_uncertain * c[2] * step))
+        return false; // a contact of the event itself gives a speed that is known
+    for (std::size_t i = 0; i < inputs_.size(); ++i)
+        uncertain_[i] = state_roundoff * std::abs(inputs_[i]);
+    values_.resize(std::max(values_.size(), states_));
+    compiled_mode_->rates.error_bounds(inputs_, uncertain_, values_, work_);
+    std::copy_n(values_.begin(), states_, uncertain_.begin());
+    const System::CompiledGradient& gradient = compiled_mode_->gradients[w];
+    values_.resize(std::max(values_.size(), gradient.states.size()));
+    gradient.values.evaluate(inputs_, values_, work_);
+    double uncertainty = 0;
+    for (std::size_t i = 0; i < gradient.states.size(); ++i)
+        if (const double slope = std::abs(values_[i]); slope > 0)
+            uncertainty += slope * uncertain_[gradient.states[i]];
+    return -c[1] <= uncertainty;
+}
+
 /// Returns the first coefficient after the zeroth that exceeds round-off, which decides the sign just after the start
 /// of an arc; 0 if there is none. Requires sum_term_sizes.
 /// @param drift possible distance from a surface along which the motion was moved
@@ -231,6 +255,8 @@ std::size_t Trajectory::leading_coefficient(std::size_t w, double step, double d
     for (std::size_t k = 1; k < c.size(); ++k) {
         power *= step;
         if (std::abs(c[k]) * power <= noise || std::abs(c[k]) <= roundoff * terms_[k])
+            continue;
+        if (k == 1 && is_cancelled_fall(w, step))
             continue;
         const double instant = k == 1 ? instant_of_speed : instant_of_force;
         const bool outgrown =

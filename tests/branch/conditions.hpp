@@ -105,6 +105,7 @@ struct Motion {
 /// Motions of the shipped models, long enough for several segments.
 inline constexpr Motion motions[] = {{"ball-and-shaker", 1.5},
                                      {"bouncing-ball", 1.2},
+                                     {"cam-follower", 1.55},
                                      {"belt-oscillator", 9},
                                      {"chua-circuit", 9},
                                      {"rocking-block", 9},

@@ -1,10 +1,12 @@
 // Orbits that touch a surface on which motions stick: grazing-sliding of an oscillator on a moving belt.
 
+#include "base/special_numbers.hpp"
 #include "belt.hpp"
 #include "cycle_error.hpp"
 #include "follow.hpp"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <iostream>
@@ -16,6 +18,7 @@
 namespace graze::sliding_test {
 
 using namespace graze::testing;
+using ::testing::HasSubstr;
 
 /// Both orbits continue, neither is stable beyond: immediate chaos.
 TEST(Sliding, GrazingOnABeltStartsChaos) {
@@ -216,12 +219,83 @@ TEST(Sliding, CrossingSlidingHasItsNameAndItsClosedForm) {
         EXPECT_NEAR(amplitude, std::hypot(1, 1 + 2 * std::tanh(std::numbers::pi / 2)), 1e-9);
 }
 
-/// Where A = a an orbit that rests on the surface comes to the edge of where it slides.
+/// Where A = a an orbit that rests on the surface comes to the edge of where it slides. It goes on with a short motion
+/// off the surface.
 TEST(Sliding, AddingSlidingHasItsNameAndItsClosedForm) {
     const Model model = first_order("A = 0.7\nk = 1\na = 1\nb = 1.2\n", "still");
     const auto found = named(model, "adding-sliding", in_parameter(model, "A", 0.5, 1.1, 1));
     ASSERT_EQ(found.size(), 1U);
     EXPECT_NEAR(found[0], 1, 1e-9);
+}
+
+/// Follows the orbit on the belt that slips once in each period, at nu = 1.
+Branch slipping(const Model& model, double from, int direction) {
+    Model there = model;
+    there.set_parameter("amplitude", from);
+    BranchSettings settings = in_parameter(there, "amplitude", 1.75, 1.826, direction);
+    return follow_branch(System(there), settled(there, "phase0").orbit, settings);
+}
+
+/// The branch goes on through adding-sliding, from both sides.
+TEST(Sliding, ABranchGoesOnThroughAddingSliding) {
+    const Model model = shipped_with("belt-oscillator", {{"nu", 1}});
+    const Branch up = slipping(model, 1.78, 1), down = slipping(model, 1.825, -1);
+    const auto touches = of_type(up, PointType::grazing);
+    ASSERT_EQ(touches.size(), 1U);
+    EXPECT_THAT(touches[0].detail, HasSubstr("adding-sliding; goes on as"));
+    const auto vanishing = of_type(down, PointType::vanishing);
+    ASSERT_EQ(vanishing.size(), 1U);
+    EXPECT_THAT(vanishing[0].detail, HasSubstr("adding-sliding; goes on as"));
+    EXPECT_TRUE(of_type(down, PointType::grazing).empty());
+    // The equations with the short motion are singular there.
+    EXPECT_NEAR(vanishing[0].parameter, touches[0].parameter, 1e-8);
+    EXPECT_EQ(up.points.back().solution.orbit.segments(), 4U);
+    EXPECT_EQ(down.points.back().solution.orbit.segments(), 2U);
+    EXPECT_EQ(up.outcome, BranchOutcome::bound);
+    EXPECT_EQ(down.outcome, BranchOutcome::bound);
+}
+
+/// Returns by how much a mass on a belt of the speed 1 is ahead of the phase at nu = 1, where it slips from the belt.
+double lead_at_slip(const Model& model, const Orbit& orbit) {
+    for (std::size_t s = 0; s < orbit.segments(); ++s)
+        if (orbit.signature[s].mode == *model.find_mode("slower"))
+            return std::remainder(orbit.starts[s][0] - orbit.starts[s][2], 2 * std::numbers::pi);
+    return not_a_number;
+}
+
+/// Beside adding-sliding the orbit differs from the one without the short motion, which is continued beyond where it is
+/// inadmissible, by (1 - P)^-1 P B depth^2.
+TEST(Sliding, OrbitsBesideAddingSlidingAreThoseOfTheMap) {
+    const Model model = shipped_with("belt-oscillator", {{"nu", 1}});
+    const auto touches = of_type(slipping(model, 1.78, 1), PointType::grazing);
+    ASSERT_EQ(touches.size(), 1U);
+    const Judged one(model, touches[0], model.independent_parameter("amplitude"));
+    ASSERT_EQ(one.map.contact.order, MapOrder::quadratic) << one.map.reason << one.map.contact.reason;
+    EXPECT_EQ(one.verdict.outcome, GrazingOutcome::persists);
+    EXPECT_EQ(one.verdict.attractor, AttractorKind::periodic);
+    EXPECT_EQ(one.verdict.side, 1);
+    EXPECT_EQ(one.trial.outcome, TrialOutcome::agreed) << one.trial.reason;
+    ASSERT_EQ(one.map.active.size(), 3U);
+    // Of the motion on the belt only the lead remains, which has one multiplier.
+    const double multiplier = one.map.multipliers.front().real();
+    std::vector<double> errors;
+    for (const double distance : {3e-3, 3e-3 / 16}) {
+        Orbit old = touches[0].solution.orbit;
+        const std::size_t place = model.independent_parameter("amplitude").place();
+        old.parameters[place] += distance;
+        const OrbitSolution without = solve_orbit(System(model), old, {});
+        ASSERT_EQ(without.outcome, OrbitOutcome::converged);
+        EXPECT_FALSE(without.certificate.admissible);
+        Model there = model;
+        there.set_parameter("amplitude", old.parameters[place]);
+        const OrbitSolution with = settled(there, "phase0");
+        EXPECT_TRUE(with.certificate.admissible);
+        const double depth = -distance * *one.map.clearance_rate,
+                     shift = one.map.contact.direction[0] * depth * depth / (1 - multiplier);
+        errors.push_back(std::abs((lead_at_slip(model, with.orbit) - lead_at_slip(model, without.orbit)) / shift - 1));
+    }
+    EXPECT_LT(errors[1], 0.1);
+    EXPECT_GT(errors[0] / errors[1], 3); // the next order is smaller by the root of the depth
 }
 
 /// With k = 0 and A = 1 the orbit leaves the surface at cos(theta) = a and returns where sin(theta) - a theta is as

@@ -177,12 +177,22 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedModel, ::testing::ValuesIn(shipped_names())
 });
 
 TEST(ShippedModels, AreComplete) {
-    const std::vector<std::string> expected = {
-        "ball-and-shaker",      "belt-oscillator",         "bouncing-ball",
-        "chua-circuit",         "dry-friction-oscillator", "electromagnetic-testbed",
-        "impact-microactuator", "impact-oscillator",       "impact-oscillator-two-stops",
-        "mems-switch",          "mems-switch-device",      "microbeam",
-        "rocking-block",        "spring-walker",           "welander-convection"};
+    const std::vector<std::string> expected = {"ball-and-shaker",
+                                               "belt-oscillator",
+                                               "bouncing-ball",
+                                               "cam-follower",
+                                               "chua-circuit",
+                                               "dry-friction-oscillator",
+                                               "electromagnetic-testbed",
+                                               "impact-microactuator",
+                                               "impact-oscillator",
+                                               "impact-oscillator-two-stops",
+                                               "mems-switch",
+                                               "mems-switch-device",
+                                               "microbeam",
+                                               "rocking-block",
+                                               "spring-walker",
+                                               "welander-convection"};
     EXPECT_EQ(shipped_names(), expected);
 }
 

@@ -14,9 +14,10 @@ TEST(Check, SummarisesEveryShippedModel) {
     const Printed list = run_graze("models --format json");
     EXPECT_TRUE(JsonCheck(list.out).valid());
     for (const std::string name :
-         {"ball-and-shaker", "belt-oscillator", "bouncing-ball", "chua-circuit", "dry-friction-oscillator",
-          "electromagnetic-testbed", "impact-microactuator", "impact-oscillator", "impact-oscillator-two-stops",
-          "mems-switch", "microbeam", "rocking-block", "spring-walker", "welander-convection"}) {
+         {"ball-and-shaker", "belt-oscillator", "bouncing-ball", "cam-follower", "chua-circuit",
+          "dry-friction-oscillator", "electromagnetic-testbed", "impact-microactuator", "impact-oscillator",
+          "impact-oscillator-two-stops", "mems-switch", "microbeam", "rocking-block", "spring-walker",
+          "welander-convection"}) {
         EXPECT_THAT(list.out, HasSubstr('"' + name + '"'));
         const Printed run = run_graze("check " + name);
         EXPECT_EQ(run.code, 0) << run.err;

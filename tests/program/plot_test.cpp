@@ -17,9 +17,10 @@ protected:
 };
 
 TEST_F(Plot, DrawsEveryShippedModelWithAClockWithoutATable) {
-    for (const std::string model : {"ball-and-shaker", "belt-oscillator", "bouncing-ball", "dry-friction-oscillator",
-                                    "electromagnetic-testbed", "impact-microactuator", "impact-oscillator",
-                                    "impact-oscillator-two-stops", "mems-switch", "microbeam", "rocking-block"}) {
+    for (const std::string model :
+         {"ball-and-shaker", "belt-oscillator", "bouncing-ball", "cam-follower", "dry-friction-oscillator",
+          "electromagnetic-testbed", "impact-microactuator", "impact-oscillator", "impact-oscillator-two-stops",
+          "mems-switch", "microbeam", "rocking-block"}) {
         const std::string file = folder / (model + ".svg");
         const std::string run = done("simulate " + model + " --periods 3 --quiet --plot " + file);
         EXPECT_EQ(run, "") << "a picture alone comes without a table";
@@ -27,7 +28,7 @@ TEST_F(Plot, DrawsEveryShippedModelWithAClockWithoutATable) {
         EXPECT_THAT(picture, HasSubstr("</svg>"));
         EXPECT_GT(picture.size(), 5000U);
     }
-    EXPECT_EQ(folder.files(), 11U);
+    EXPECT_EQ(folder.files(), 12U);
 }
 
 TEST_F(Plot, OtherFormatsComeWithATableIfAsked) {

@@ -152,6 +152,28 @@ TEST(SlidingModes, EndAtATwoFold) {
 }
 
 /// The four fields are not f + u g + v h, so that the motion along both surfaces is not unique.
+/// A mass on a belt is pulled off where the force grows slowly beyond friction. The velocity relative to the belt then
+/// has the rate zero but for round-off of forces that cancel, of either sign; the mass is back after three times the
+/// time to the greatest force.
+TEST(SlidingModes, AreLeftSlowlyForAShortTime) {
+    const double nu = 1, amplitude = 1.8, theta = -std::asin(1 / (nu * amplitude)),
+                 a = amplitude * nu * nu * std::cos(theta);
+    const Model model = shipped_with("belt-oscillator", {{"nu", nu}, {"amplitude", amplitude}});
+    for (int i = 0; i < 200; ++i) {
+        const double depth = std::pow(10.0, -4 - i / 50.0), time = std::sqrt(2 * depth / a);
+        Experiment experiment(model, with_tolerance(1e-15));
+        // On the belt, with the phase of the greatest force reached in 10 times that time.
+        const double before = 10 * time;
+        const std::vector<double> state{amplitude * std::cos(theta) - 1.5 - depth - before, 1,
+                                        theta - before + 2 * std::numbers::pi};
+        ASSERT_EQ(experiment.run_from(state, *model.find_mode("stick"), 20 * time).ending, Ending::end_time) << i;
+        const auto& contacts = experiment.recorder.contacts();
+        ASSERT_EQ(contacts.size(), 2U) << i;
+        EXPECT_NEAR((contacts[0].contact.time - before) / time, -1, 4 * time) << i;
+        EXPECT_NEAR((contacts[1].contact.time - before) / time, 2, 8 * time) << i;
+    }
+}
+
 TEST(SlidingModes, EndWhereSurfacesMeet) {
     std::string text = "name = \"quadrants\"\n[states]\nx = 1\ny = 3\n[events]\nfront = \"x\"\nside = \"y\"\n";
     for (const auto& [name, rates] : {std::pair("pp", "x = -1, y = -1"), std::pair("pm", "x = -1, y = 1"),

@@ -37,12 +37,13 @@ std::vector<OrbitTouch> touches_of(const System& system, const Orbit& orbit, con
 ///
 ///     x -> P (x + B s),   s = sqrt(-2 a h) where h = C + g x is negative, and 0 elsewhere
 ///
-/// (or B (-h)^(3/2) or B (-h) in place of B s), where C is the clearance of that orbit: the minimum of the event
+/// (or B (-h)^(3/2), B (-h) or B h^2 in place of B s), where C is the clearance of that orbit: the minimum of the event
 /// function. The orbit may have other contacts; the cycle of a half orbit ends at its image.
 ///
 /// For states of the order of h the error is of order s^2 (h^2 for a compliant contact, h^(3/2) for sliding). The next
 /// order adds `second` s^2 for an impact, which leaves an error of order s^3, and `second` (-h)^(3/2) for sliding, with
-/// an error of order h^2.
+/// an error of order h^2. A map that is quadratic is the leading difference from the motion without excursion, which
+/// the matrix P describes to first order only.
 struct CycleMap {
     std::string reason; ///< why the map does not exist, in one line; empty if it does
     OrbitTouch touch;
@@ -75,8 +76,8 @@ struct CycleMap {
     /// half of it where the surface may be mapped to its image
     bool is_at_touch(double time, double period) const;
     /// Returns g P^k B for k = 1, 2, ..., count: the change of the clearance k cycles after a contact, per unit of its
-    /// approach speed (per unit of depth^(3/2) or of depth for compliant contacts or sliding). A negative one leads to
-    /// another contact. @throws InputError for a count above ten million
+    /// approach speed (per unit of depth^(3/2), of depth or of depth^2 for other orders of the map). A negative one
+    /// leads to another contact. @throws InputError for a count above ten million
     std::vector<double> projections(std::size_t count) const;
     /// Returns the effect of impacts in all previous cycles on the clearance, per unit of approach speed, if all
     /// impacts are equal (sign 1) or alternate in strength (sign -1): the sum of sign^(k-1) g P^k B over k, times det(1

@@ -24,6 +24,7 @@ enum class MapOrder {
     square_root,  ///< rigid contact: square root of the depth
     three_halves, ///< compliant contact: power 3/2 of the depth
     linear,       ///< sliding or sticking for a short time: linear in the depth
+    quadratic,    ///< sliding that is left for a short time: square of the depth
 };
 /// Returns the stable name for tables and files, such as "square-root".
 std::string_view name_of(MapOrder order);
@@ -36,6 +37,7 @@ std::string_view name_of(MapOrder order);
 ///     direction * s  with the approach speed s = sqrt(2 acceleration d)     (square_root)
 ///     direction * d^(3/2)                                                   (three_halves)
 ///     direction * d                                                         (linear)
+///     direction * d^2                                                       (quadratic)
 ///
 /// The next order is known for a square_root map with a single jump, where the shift is direction s + second s^2 with
 /// an error of order s^3, and for a linear map, where it is direction d + second d^(3/2) with an error of order d^2.

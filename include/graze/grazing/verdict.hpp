@@ -27,7 +27,7 @@ enum class AttractorKind {
     period_adding,    ///< multiplier below 1/4: one contact per period; the period increases towards the touch
     periodic_windows, ///< multiplier below 2/3: the same, with chaos between the periodic windows
     chaotic,          ///< chaos that begins at the touch; for sliding, any motion that does not repeat
-    periodic,         ///< sliding only: a periodic attractor
+    periodic,         ///< sliding, or a slide that is left, only: a periodic attractor
 };
 std::string_view name_of(AttractorKind kind);
 
@@ -56,6 +56,8 @@ std::string_view name_of(BorderCollision collision);
 /// below -1 gives rise to an orbit of twice the period (M. I. Feigin, J. Appl. Math. Mech. 42, 1978; M. di Bernardo, M.
 /// I. Feigin, S. J. Hogan and M. E. Homer, Chaos, Solitons & Fractals 10, 1999). Where the sliding orbit is not stable
 /// the map is iterated, at one distance only because the map is the same at all.
+///
+/// Where a slide is left for a short time the map is differentiable: the orbit continues, with the same multipliers.
 struct Verdict {
     GrazingOutcome outcome = GrazingOutcome::undecided;
     std::string reason; ///< why the outcome is undecided; empty otherwise

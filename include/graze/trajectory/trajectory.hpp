@@ -203,6 +203,7 @@ private:
     bool fell_before(std::size_t watched, double at_surface);
     void hold_surfaces(std::size_t watched, double s);
     void sum_term_sizes(std::size_t watched);
+    bool is_cancelled_fall(std::size_t watched, double step);
     std::size_t leading_coefficient(std::size_t watched, double step, double drift);
     // Accumulations of contacts (chatter.cpp)
     void remember_contact(std::size_t event, double rate);
