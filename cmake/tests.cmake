@@ -61,6 +61,12 @@ foreach(folder IN LISTS test_folders)
     target_include_directories(test_${folder} PRIVATE include src tests)
     target_link_libraries(test_${folder} PRIVATE GTest::gtest_main GTest::gmock graze_options graze_headers fmt::fmt)
     if(folder STREQUAL program)
+        # Objects come before those of tests, and libraries behind them. Of what headers define several times, as CLI11's
+        # do, linkers take the first: it is to be the program's, and not that of tests, which are not optimised.
+        target_sources(test_${folder} PRIVATE $<TARGET_OBJECTS:graze_program>)
+        foreach(part IN LISTS GRAZE_FOLDERS)
+            target_link_libraries(test_${folder} PRIVATE graze_${part})
+        endforeach()
         target_link_libraries(test_${folder} PRIVATE graze_program)
         add_dependencies(test_${folder} graze_executable)
     else()
