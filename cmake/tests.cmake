@@ -63,9 +63,8 @@ foreach(folder IN LISTS test_folders)
     if(folder STREQUAL program)
         # Objects come before those of tests, and libraries behind them. Of what headers define several times, as CLI11's
         # do, linkers take the first: it is to be the program's, and not that of tests, which are not optimised.
-        target_sources(test_${folder} PRIVATE $<TARGET_OBJECTS:graze_program>)
-        foreach(part IN LISTS GRAZE_FOLDERS)
-            target_link_libraries(test_${folder} PRIVATE graze_${part})
+        foreach(part IN ITEMS kernels ${GRAZE_FOLDERS} program)
+            target_sources(test_${folder} PRIVATE $<TARGET_OBJECTS:graze_${part}>)
         endforeach()
         target_link_libraries(test_${folder} PRIVATE graze_program)
         add_dependencies(test_${folder} graze_executable)
