@@ -86,10 +86,12 @@ foreach(folder IN LISTS test_folders)
     target_compile_options(test_${folder} PRIVATE ${GRAZE_TESTS_COMPILED})
     gtest_discover_tests(
         test_${folder} TEST_PREFIX ${folder}. TEST_FILTER "-*Slow.*" DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES
+        TEST_LIST test_${folder}_tests
         PROPERTIES TIMEOUT 600
     )
     gtest_discover_tests(
         test_${folder} TEST_PREFIX ${folder}. TEST_FILTER "*Slow.*" DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES
+        TEST_LIST test_${folder}_slow_tests
         PROPERTIES TIMEOUT 1200 LABELS slow
     )
 endforeach()
@@ -157,4 +159,7 @@ if(TARGET graze_executable)
         demo PROPERTIES ENVIRONMENT "GRAZE=$<TARGET_FILE:graze_executable>" LABELS slow TIMEOUT 1200 COST 1000
     )
     include(tests/documentation/documentation.cmake)
+    if(NOT GRAZE_SANITIZERS) # under which those that look at them are left out
+        include(tests/shipped/shipped.cmake)
+    endif()
 endif()
