@@ -61,6 +61,11 @@ foreach(folder IN LISTS test_folders)
     target_include_directories(test_${folder} PRIVATE include src tests)
     target_link_libraries(test_${folder} PRIVATE GTest::gtest_main GTest::gmock graze_options graze_headers fmt::fmt)
     if(folder STREQUAL program)
+        # Objects come before those of tests, and libraries behind them. Of what headers define several times, as CLI11's
+        # do, linkers take the first: it is to be the program's, and not that of tests, which are not optimised.
+        foreach(part IN ITEMS kernels ${GRAZE_FOLDERS} program)
+            target_sources(test_${folder} PRIVATE $<TARGET_OBJECTS:graze_${part}>)
+        endforeach()
         target_link_libraries(test_${folder} PRIVATE graze_program)
         add_dependencies(test_${folder} graze_executable)
     else()
@@ -81,10 +86,12 @@ foreach(folder IN LISTS test_folders)
     target_compile_options(test_${folder} PRIVATE ${GRAZE_TESTS_COMPILED})
     gtest_discover_tests(
         test_${folder} TEST_PREFIX ${folder}. TEST_FILTER "-*Slow.*" DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES
+        TEST_LIST test_${folder}_tests
         PROPERTIES TIMEOUT 600
     )
     gtest_discover_tests(
         test_${folder} TEST_PREFIX ${folder}. TEST_FILTER "*Slow.*" DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES
+        TEST_LIST test_${folder}_slow_tests
         PROPERTIES TIMEOUT 1200 LABELS slow
     )
 endforeach()
@@ -152,4 +159,7 @@ if(TARGET graze_executable)
         demo PROPERTIES ENVIRONMENT "GRAZE=$<TARGET_FILE:graze_executable>" LABELS slow TIMEOUT 1200 COST 1000
     )
     include(tests/documentation/documentation.cmake)
+    if(NOT GRAZE_SANITIZERS) # under which those that look at them are left out
+        include(tests/shipped/shipped.cmake)
+    endif()
 endif()

@@ -5,6 +5,7 @@
 #include <regex>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace graze {
 
@@ -88,6 +89,12 @@ constexpr Words remedies[] = {
     {"; name states or expressions", "; name states or expressions by --y"},
 };
 
+struct Pattern {
+    std::regex said;
+    const char* told;
+    Pattern(const std::pair<const char*, const char*>& words) : said(words.first), told(words.second) {}
+};
+
 /// Regular expressions, where the option takes a name of the message.
 constexpr std::pair<const char*, const char*> patterns[] = {
     {R"(make it by designing (.+) into (.+)$)", "make it by: graze design $1 --output $2"},
@@ -120,8 +127,9 @@ std::string in_options(const std::string& message, std::span<const std::string> 
             text.replace(at, remedy.said.size(), remedy.told);
             break;
         }
-    for (const auto& [said, told] : patterns)
-        text = std::regex_replace(text, std::regex(said), told);
+    static const std::vector<Pattern> compiled(std::begin(patterns), std::end(patterns)); // which takes milliseconds
+    for (const auto& [said, told] : compiled)
+        text = std::regex_replace(text, said, told);
     return text;
 }
 

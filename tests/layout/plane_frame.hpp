@@ -2,8 +2,10 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -34,26 +36,19 @@ public:
     std::pair<double, double> driven(const std::vector<std::size_t>& moved,
                                      const std::vector<std::size_t>& held) const {
         const auto n = static_cast<Eigen::Index>(3 * joints_.size());
-        Matrix stiffness = Matrix::Zero(n, n), mass = stiffness;
+        Rows stiffness(static_cast<std::size_t>(n)), mass = stiffness;
         for (const Element& one : elements_)
             assemble(one, stiffness, mass);
         Vector motion = Vector::Zero(n);
         for (const std::size_t joint : moved)
             motion[first_of(joint)] = 1;
-        const Vector force = stiffness * motion;
-        Matrix reduced = stiffness;
-        Vector right = -force;
+        std::vector<bool> given(static_cast<std::size_t>(n));
         for (const auto& joints : {held, moved})
             for (const std::size_t joint : joints)
-                for (Eigen::Index k = first_of(joint); k < first_of(joint) + 3; ++k) {
-                    reduced.row(k).setZero();
-                    reduced.col(k).setZero();
-                    reduced(k, k) = 1;
-                    right[k] = motion[k];
-                }
-        const Vector displaced = reduced.ldlt().solve(right);
-        return {static_cast<double>(motion.dot(stiffness * displaced)),
-                static_cast<double>(displaced.dot(mass * displaced))};
+                std::fill_n(given.begin() + first_of(joint), 3, true);
+        const Vector displaced = solved(stiffness, given, motion);
+        return {static_cast<double>(motion.dot(product(stiffness, displaced))),
+                static_cast<double>(displaced.dot(product(mass, displaced)))};
     }
 
 private:
@@ -62,14 +57,71 @@ private:
         double bending, stretching, density; // E I, E A, mass by length
     };
     // In double precision rigid joints would cost ten digits.
-    using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+    // Joints have few neighbours, so that rows have few entries, also while unknowns are eliminated.
+    using Rows = std::vector<std::map<Eigen::Index, long double>>;
     using Vector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
     using OfElement = Eigen::Matrix<long double, 6, 6>;
 
     /// Place of a joint's displacement in x; those in y and of the angle follow.
     static Eigen::Index first_of(std::size_t joint) { return static_cast<Eigen::Index>(3 * joint); }
 
-    void assemble(const Element& one, Matrix& stiffness, Matrix& mass) const {
+    static Vector product(const Rows& rows, const Vector& factor) {
+        Vector result = Vector::Zero(factor.size());
+        for (Eigen::Index i = 0; i < factor.size(); ++i)
+            for (const auto& [j, value] : rows[static_cast<std::size_t>(i)])
+                result[i] += value * factor[j];
+        return result;
+    }
+
+    /// What the joints do that are not given, without forces on them: eliminated one unknown after another, of those
+    /// that are left always one with the fewest neighbours. Stiffness is positive, so that no pivot is small.
+    static Vector solved(Rows rows, const std::vector<bool>& given, const Vector& motion) {
+        Vector right = Vector::Zero(motion.size()), result = motion;
+        std::vector<Eigen::Index> left, order;
+        for (Eigen::Index i = 0; i < motion.size(); ++i) {
+            if (given[static_cast<std::size_t>(i)])
+                continue;
+            left.push_back(i);
+            std::erase_if(rows[static_cast<std::size_t>(i)], [&](const auto& entry) {
+                const bool known = given[static_cast<std::size_t>(entry.first)];
+                if (known)
+                    right[i] -= entry.second * motion[entry.first];
+                return known;
+            });
+        }
+        const auto row_of = [&](Eigen::Index i) -> std::map<Eigen::Index, long double>& {
+            return rows[static_cast<std::size_t>(i)];
+        };
+        while (!left.empty()) {
+            const auto next = std::min_element(left.begin(), left.end(), [&](auto one, auto other) {
+                return row_of(one).size() < row_of(other).size();
+            });
+            const Eigen::Index i = *next;
+            *next = left.back();
+            left.pop_back();
+            order.push_back(i);
+            const auto pivot = row_of(i);
+            for (const auto& [j, value] : pivot) {
+                if (j == i)
+                    continue;
+                const long double factor = value / pivot.at(i);
+                for (const auto& [k, other] : pivot)
+                    row_of(j)[k] -= factor * other;
+                row_of(j).erase(i);
+                right[j] -= factor * right[i];
+            }
+        }
+        for (auto i = order.rbegin(); i != order.rend(); ++i) {
+            long double force = right[*i];
+            for (const auto& [j, value] : row_of(*i))
+                if (j != *i)
+                    force -= value * result[j];
+            result[*i] = force / row_of(*i).at(*i);
+        }
+        return result;
+    }
+
+    void assemble(const Element& one, Rows& stiffness, Rows& mass) const {
         const Eigen::Vector2d d = joints_[one.to] - joints_[one.from];
         const long double l = d.norm(), c = d.x() / l, s = d.y() / l;
         const long double b = one.bending / (l * l * l), a = one.stretching / l, m = one.density * l / 420;
@@ -91,10 +143,12 @@ private:
             turn.block<2, 2>(k, k) << c, s, -s, c;
         const OfElement stiff = turn.transpose() * local * turn, heavy = m * turn.transpose() * inert * turn;
         const auto joint = [&](Eigen::Index i) { return first_of(i == 0 ? one.from : one.to); };
-        for (const Eigen::Index i : {0, 1})
-            for (const Eigen::Index j : {0, 1}) {
-                stiffness.block<3, 3>(joint(i), joint(j)) += stiff.block<3, 3>(3 * i, 3 * j);
-                mass.block<3, 3>(joint(i), joint(j)) += heavy.block<3, 3>(3 * i, 3 * j);
+        for (Eigen::Index i = 0; i < 6; ++i)
+            for (Eigen::Index j = 0; j < 6; ++j) {
+                const auto row = static_cast<std::size_t>(joint(i / 3) + i % 3);
+                const Eigen::Index column = joint(j / 3) + j % 3;
+                stiffness[row][column] += stiff(i, j);
+                mass[row][column] += heavy(i, j);
             }
     }
 

@@ -241,14 +241,14 @@ public:
     /// @param use takes nothing, or one object, which is made for it
     template <class Use>
     void operator()(std::string name, Use use) {
-        add(std::move(name), std::function(std::move(use)));
+        add(std::move(name), callable(std::move(use)));
     }
     /// Adds a use for each value of a list.
     /// @param use takes a value, or an object, which is made for it, and a value
     template <class Value, class Use>
     void operator()(const std::string& name, const std::vector<std::pair<std::string, Value>>& values, Use use) {
         for (const auto& [how, value] : values)
-            add(name + "_" + how, std::function(use), value);
+            add(name + "_" + how, callable(use), value);
     }
     /// Adds uses of an object with a mistake, each under its own name and that of the mistake.
     template <class Object>
@@ -286,6 +286,15 @@ public:
     const std::vector<WrongUse>& list() const { return list_; }
 
 private:
+    /// Lambdas without captures are functions: then a compiler makes the code around them once for all that take the
+    /// same.
+    template <class Use>
+    static auto callable(Use use) {
+        if constexpr (requires { +use; })
+            return std::function(+use);
+        else
+            return std::function(std::move(use));
+    }
     void add(std::string name, std::function<void()> use) {
         for (char& c : name)
             if (!std::isalnum(static_cast<unsigned char>(c)))

@@ -95,12 +95,14 @@ struct Counts {
 Counts expect_all_closed(bool large) {
     Counts counts;
     for (const std::string& name : shipped_studies()) {
-        testing::StudyResults results(load_study(name));
+        testing::StudyResults results(name);
         const std::vector<std::string> chosen = branches_alone(results.study, large);
         if (chosen.empty())
             continue;
         results.run(chosen);
-        for (const StudyRun& run : results.study.runs)
+        for (const StudyRun& run : results.study.runs) {
+            if (!std::ranges::binary_search(chosen, run.name)) // sorted
+                continue;
             for (const OrbitRecord& record : results.file().orbits(run.name, true)) {
                 EXPECT_LT(record.point.solution.residual, 1e-6) << name << run.name << record.label;
                 // Where contacts accumulate, what is kept ends before the last of them.
@@ -111,6 +113,7 @@ Counts expect_all_closed(bool large) {
                 ++counts.orbits;
                 counts.halves += record.point.solution.orbit.symmetry ? 1 : 0;
             }
+        }
     }
     return counts;
 }

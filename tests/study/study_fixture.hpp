@@ -3,6 +3,8 @@
 #include "base/message_of.hpp"
 #include "base/temporary_folder.hpp"
 #include "graze/study/runner.hpp"
+#include "graze/study/study_catalogue.hpp"
+#include "shipped/shipped_results.hpp"
 
 #include <gtest/gtest.h>
 
@@ -48,6 +50,9 @@ class StudyResults {
 public:
     explicit StudyResults(Study made)
         : study(std::move(made)), file_(folder_ / "results.sqlite", ResultFile::Access::write) {}
+    /// A shipped study, with the results that there are of it.
+    explicit StudyResults(const std::string& name)
+        : study(load_study(name)), file_(begun(name), ResultFile::Access::write) {}
 
     /// With the runs that they start from.
     std::vector<RunReport> run(const std::vector<std::string>& names) {
@@ -66,6 +71,11 @@ public:
     const Study study;
 
 private:
+    std::string begun(const std::string& name) const {
+        copy_shipped_results(name, folder_ / "results.sqlite");
+        return folder_ / "results.sqlite";
+    }
+
     TemporaryFolder folder_;
     ResultFile file_;
 };

@@ -19,9 +19,13 @@ std::vector<Peak> maxima(const LinearOscillator& oscillator, double surface, Rea
         size = std::max(size, std::abs(motions[i].x) + std::abs(motions[i].v));
         if (i == 0 || !(motions[i - 1].v > 0 && motions[i].v <= 0))
             continue;
-        const auto velocity = [&](Real s) { return std::pair(oscillator.v(s), oscillator.acceleration(s)); };
+        const auto velocity = [&](Real s) {
+            const auto motion = oscillator.at(s);
+            return std::pair(motion.v, motion.acceleration);
+        };
         const Real t = root_in(velocity, h * Real(i - 1), h * Real(i));
-        peaks.push_back({t, oscillator.x(t) - surface, std::abs(oscillator.acceleration(t))});
+        const auto highest = oscillator.at(t);
+        peaks.push_back({t, highest.x - surface, std::abs(highest.acceleration)});
     }
     return peaks;
 }

@@ -23,6 +23,13 @@ private:
     std::mt19937_64 bits_;
 };
 
+/// e^(i angle). Reducing the angle, which takes as long as all else, is done once for both parts.
+inline std::complex<long double> turned(long double angle) {
+    long double sine = 0, cosine = 0;
+    ::sincosl(angle, &sine, &cosine);
+    return {cosine, sine};
+}
+
 /// x'' + 2 zeta n x' + n^2 x = amplitude cos(phase + omega t) in closed form, with more digits than the results under
 /// test. Underdamped, and not in undamped resonance.
 class LinearOscillator {
@@ -30,6 +37,7 @@ public:
     using Real = long double;
     struct Motion {
         Real x, v;
+        Real acceleration = 0; ///< of `at`
     };
 
     LinearOscillator(Real zeta, Real omega, Real amplitude, Real natural = 1)
@@ -40,24 +48,24 @@ public:
 
     void start(Real x, Real v, Real phase) {
         phase_ = phase;
-        const std::complex<Real> forced = response_ * std::polar<Real>(1, phase);
+        const std::complex<Real> forced = response_ * turned(phase);
         cosine_ = x - forced.real();
         sine_ = (v + omega_ * forced.imag() + decay_ * cosine_) / frequency_;
     }
 
     Motion at(Real t) const {
-        const std::complex<Real> forced = response_ * std::polar<Real>(1, phase_ + omega_ * t);
-        const Real c = std::cos(frequency_ * t), s = std::sin(frequency_ * t), e = std::exp(-decay_ * t);
+        const std::complex<Real> drive = turned(phase_ + omega_ * t), own = turned(frequency_ * t);
+        const Real c = own.real(), s = own.imag(), e = std::exp(-decay_ * t);
+        const Real forced = response_.real() * drive.real() - response_.imag() * drive.imag(),
+                   forced_rate = -omega_ * (response_.real() * drive.imag() + response_.imag() * drive.real());
         const Real free = e * (cosine_ * c + sine_ * s);
-        return {forced.real() + free,
-                -omega_ * forced.imag() - decay_ * free + e * frequency_ * (sine_ * c - cosine_ * s)};
+        Motion motion{forced + free, forced_rate - decay_ * free + e * frequency_ * (sine_ * c - cosine_ * s)};
+        motion.acceleration = forcing_ * drive.real() - 2 * decay_ * motion.v - natural_ * natural_ * motion.x;
+        return motion;
     }
     Real x(Real t) const { return at(t).x; }
     Real v(Real t) const { return at(t).v; }
-    Real acceleration(Real t) const {
-        const Motion motion = at(t);
-        return forcing_ * std::cos(phase_ + omega_ * t) - 2 * decay_ * motion.v - natural_ * natural_ * motion.x;
-    }
+    Real acceleration(Real t) const { return at(t).acceleration; }
     Real omega() const { return omega_; }
     Real phase() const { return phase_; }
 
@@ -66,10 +74,9 @@ public:
         std::vector<Motion> motions;
         motions.reserve(count);
         const Real e = std::exp(-decay_ * h);
-        const std::complex<Real> turn = e * std::polar<Real>(1, frequency_ * h),
-                                 drive = std::polar<Real>(1, omega_ * h);
+        const std::complex<Real> turn = e * turned(frequency_ * h), drive = turned(omega_ * h);
         std::complex<Real> free(cosine_, -sine_); // e^-dt (C cos + S sin) = Re[(C - iS) e^(-d + if)t]
-        std::complex<Real> forced = response_ * std::polar<Real>(1, phase_);
+        std::complex<Real> forced = response_ * turned(phase_);
         for (std::size_t i = 0; i < count; ++i) {
             motions.push_back({forced.real() + free.real(),
                                -omega_ * forced.imag() - decay_ * free.real() - frequency_ * free.imag()});

@@ -1,6 +1,7 @@
 #include "trajectory/simulate.hpp"
 
 #include "base/message_of.hpp"
+#include "closed_form.hpp"
 #include "graze/base/input_error.hpp"
 
 #include <gmock/gmock.h>
@@ -28,21 +29,22 @@ public:
         const auto [p, q] = forced(t + s);
         const Number own = std::sqrt(1 - zeta * zeta), decay = std::exp(-zeta * s);
         const Number a = x - p0, b = (v - q0 + zeta * a) / own;
-        const Number c = std::cos(own * s), d = std::sin(own * s);
+        const std::complex<Number> turn = turned(own * s);
+        const Number c = turn.real(), d = turn.imag();
         return {p + decay * (a * c + b * d), q + decay * ((-zeta * a + own * b) * c - (zeta * b + own * a) * d)};
     }
     /// Returns the time to the first impact after s = 0, from a motion that leaves the stop or is clear of it.
     Number flight(Number t, Number x, Number v) const {
-        const Number mesh = 2 * std::numbers::pi_v<Number> / omega / 4000;
-        Number low = mesh / 1000;
-        while (sigma - at(t, x, v, low + mesh).first > 0)
+        // Impacts here are at a speed, so that none is between points of this mesh.
+        const Number mesh = 2 * std::numbers::pi_v<Number> / omega / 400;
+        const auto gap = [&](Number s) {
+            const auto [position, speed] = at(t, x, v, s);
+            return std::pair(sigma - position, -speed);
+        };
+        Number low = mesh / 10000;
+        while (gap(low + mesh).first > 0)
             low += mesh;
-        Number high = low + mesh;
-        for (int i = 0; i < 100; ++i) {
-            const Number middle = (low + high) / 2;
-            (sigma - at(t, x, v, middle).first > 0 ? low : high) = middle;
-        }
-        return (low + high) / 2;
+        return root_in(gap, low, low + mesh);
     }
 
 private:
@@ -51,8 +53,8 @@ private:
         const Number real = 1 - omega * omega, imaginary = 2 * zeta * omega;
         const Number size = real * real + imaginary * imaginary;
         const Number a = real / size, b = imaginary / size;
-        return {a * std::cos(omega * t) + b * std::sin(omega * t),
-                omega * (b * std::cos(omega * t) - a * std::sin(omega * t))};
+        const std::complex<Number> turn = turned(omega * t);
+        return {a * turn.real() + b * turn.imag(), omega * (b * turn.real() - a * turn.imag())};
     }
 };
 
