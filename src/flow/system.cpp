@@ -1,10 +1,12 @@
 #include "graze/flow/system.hpp"
 
+#include "flow/lie_derivative.hpp"
 #include "flow/section_function.hpp"
 #include "flow/uniformised_system.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/symbolic/linearisation.hpp"
 #include "graze/symbolic/transform.hpp"
+#include "model/contact_modes.hpp"
 #include "model/model_expand.hpp"
 #include "model/model_expressions.hpp"
 #include "symbolic/subgraph.hpp"
@@ -27,6 +29,7 @@ public:
     void compile(System::Parts& parts) {
         compile_maps(parts);
         compile_transitions(parts);
+        compile_contacts(parts);
         compile_surfaces(parts);
         std::vector<Expression> periods, initial;
         for (const State& state : model_.states) {
@@ -63,6 +66,8 @@ public:
 private:
     void compile_maps(System::Parts& parts);
     void compile_transitions(System::Parts& parts);
+    void compile_contacts(System::Parts& parts);
+    Function contact_values(std::size_t base);
     void compile_surfaces(System::Parts& parts);
     void compile_tape(System::CompiledMode& compiled, const std::vector<Expression>& rates,
                       std::vector<Expression> outputs);
@@ -421,6 +426,69 @@ void SystemCompiler::compile_transitions(System::Parts& parts) {
         }
         parts.transitions.push_back(std::move(compiled));
     }
+}
+
+/// Contacts that hit one another come to rest together, for which their mechanics is needed; see `JointRest`.
+void SystemCompiler::compile_contacts(System::Parts& parts) {
+    parts.contact_modes.resize(model_.modes.size());
+    const auto rubs = [](const UnilateralContact& one) { return one.friction.has_value(); };
+    if (model_.contacts.size() < 2 || model_.contact_settings.law != ImpactLaw::sequence ||
+        std::ranges::any_of(model_.contacts, rubs))
+        return;
+    std::vector<std::size_t> events;
+    for (const UnilateralContact& contact : model_.contacts)
+        if (const auto event = model_.find_event(contact.name))
+            events.push_back(*event);
+    if (events.size() < model_.contacts.size())
+        return; // not completed
+    for (const std::size_t base : modes_with_contacts(model_)) {
+        for (std::size_t m = 0; m < model_.modes.size(); ++m) {
+            System::ContactsOfMode here{parts.contacts.size(), std::vector<bool>(events.size(), false)};
+            std::string name = model_.modes[base].name;
+            for (std::size_t i = 0; i < events.size(); ++i) {
+                here.closed[i] = std::ranges::any_of(
+                    model_.modes[m].slides_on, [&](const SlidingSurface& along) { return along.surface == events[i]; });
+                if (here.closed[i])
+                    name += contact_words(model_.contacts[i].name, ContactState::closed);
+            }
+            if (m == base || (model_.modes[m].derived && model_.modes[m].name == name))
+                parts.contact_modes[m] = std::move(here);
+        }
+        parts.contacts.push_back({base, events, model_.contact_settings.velocities, contact_values(base)});
+    }
+}
+
+Function SystemCompiler::contact_values(std::size_t base) {
+    const std::vector<Expression> field = expander_.expand(model_.modes[base].rates),
+                                  mass = expander_.expand(model_.contact_settings.mass);
+    std::vector<Expression> all, restitutions, velocities;
+    for (const UnilateralContact& contact : model_.contacts) {
+        all.push_back(contact.gap);
+        restitutions.push_back(contact.restitution);
+    }
+    for (const std::size_t state : model_.contact_settings.velocities)
+        velocities.push_back(model_.symbol(model_.states[state].name));
+    const std::vector<Expression> gaps = expander_.expand(all);
+    const std::vector<Expression> rates = lie_derivatives(model_, gaps, field),
+                                  accelerations = lie_derivatives(model_, rates, field);
+    std::vector<std::vector<Expression>> slopes(rates.size()), responses;
+    for (std::size_t i = 0; i < rates.size(); ++i) {
+        for (const Expression& velocity : velocities)
+            slopes[i].push_back(differentiate(rates[i], velocity));
+        responses.push_back(accelerations_by(mass, slopes[i]));
+    }
+    all = gaps;
+    for (const std::vector<Expression>& some : {rates, accelerations, expander_.expand(restitutions)})
+        all.insert(all.end(), some.begin(), some.end());
+    for (const std::vector<Expression>& slope : slopes)
+        for (const std::vector<Expression>& response : responses) {
+            all.push_back(model_.graph->number(0));
+            for (std::size_t k = 0; k < slope.size(); ++k)
+                all.back() = all.back() + slope[k] * response[k];
+        }
+    for (const std::vector<Expression>& response : responses)
+        all.insert(all.end(), response.begin(), response.end());
+    return compile(inputs_, all);
 }
 
 void SystemCompiler::compile_surfaces(System::Parts& parts) {

@@ -242,8 +242,12 @@ private:
             if (impact.active[i] != ContactState::open)
                 after[i] = impact.active[i];
         for (const std::size_t contact : closing)
-            if (after[contact] == ContactState::open) // another contact keeps this one open, but all speeds vanish
-                after[contact] = modes_.mechanics(base).rubs(contact) ? ContactState::stick : ContactState::closed;
+            if (after[contact] == ContactState::open) // another contact keeps this one open, but normal speeds vanish
+                after[contact] = rest_beside_others(base, after, contact);
+        for (std::size_t i = 0; i < after.size(); ++i)
+            for (std::size_t j = 0; j < after.size(); ++j)
+                if (is_slip(after[i]) && after[j] == ContactState::stick && stick_together(base, after, i, j))
+                    after[i] = ContactState::stick; // their slips are one
         if (!modes_.possible(base, after))
             return;
         for (std::size_t i = 0; i < after.size(); ++i)
@@ -251,6 +255,16 @@ private:
         const std::size_t jump = add_jump("rest" + words, "velocities and gaps are set to zero exactly",
                                           impacts_.rest(base, variant.states, after, closing));
         made.chatter = Sticking{jump, modes_.variant(base, after).mode};
+    }
+
+    /// Returns what a contact that comes to rest with others does: it slips as another one in the same direction does.
+    ContactState rest_beside_others(std::size_t base, const ContactStates& states, std::size_t contact) {
+        if (!modes_.mechanics(base).rubs(contact))
+            return ContactState::closed;
+        for (std::size_t i = 0; i < states.size(); ++i)
+            if (is_slip(states[i]) && stick_together(base, states, contact, i))
+                return states[i];
+        return ContactState::stick;
     }
 
     /// Returns the jump with this map, made if there is none.
@@ -318,8 +332,8 @@ private:
                         known[i] = {Normal::touching, direction, false};
                 const Expression& rubbing = variant.force.tangential[contact];
                 add_end(base, variant, name + (forward ? "-forward" : "-backward"),
-                        fmt::format("friction in '{}' gives way", name), forward ? limit + rubbing : limit - rubbing, 0,
-                        known);
+                        fmt::format("friction in '{}' gives way", name), forward ? limit + rubbing : limit - rubbing,
+                        jump_to_rest(base, contact), known);
             }
         }
         if (!is_slip(state))
@@ -328,11 +342,16 @@ private:
         for (std::size_t i = 0; i < known.size(); ++i)
             if (i != contact && is_slip(variant.states[i]) && stick_together(base, variant.states, contact, i))
                 known[i] = {Normal::touching, std::nullopt, true};
+        add_transition(base, variant, modes_.stop_event(contact, state), name + "-stops", jump_to_rest(base, contact),
+                       known);
+    }
+
+    /// Returns the jump that removes the round-off of a slip that is zero.
+    std::size_t jump_to_rest(std::size_t base, std::size_t contact) {
         const std::vector<Expression> still(model_.contact_settings.velocities.size(), model_.number(0));
-        std::vector<Expression> zero{modes_.mechanics(base).slip(contact).velocity};
-        const std::size_t stop =
-            add_jump("stop-" + name, "the slip is set to zero exactly", modes_.velocity_map(still, zero));
-        add_transition(base, variant, modes_.stop_event(contact, state), name + "-stops", stop, known);
+        const std::vector<Expression> zero{modes_.mechanics(base).slip(contact).velocity};
+        return add_jump("stop-" + contact_name(contact), "the slip is set to zero exactly",
+                        modes_.velocity_map(still, zero));
     }
 
     /// Returns the contact that carries the friction of another one, or this one.

@@ -260,6 +260,34 @@ std::vector<ContactImpact> ContactImpacts::at(std::size_t base, const ContactSta
     return result;
 }
 
+/// Sets positions to those at which gaps that close, and those that are closed, vanish. Does nothing if only one does,
+/// or where positions do not follow from them in numbers. @return whether it did
+bool ContactImpacts::put_onto_gaps(StateMap& map, const Meeting& meeting) const {
+    const std::vector<Expression> states = model_.state_symbols();
+    std::vector<bool> positions(states.size(), true);
+    for (const std::size_t state : model_.contact_settings.velocities)
+        positions[state] = false;
+    std::vector<std::size_t> shut;
+    for (std::size_t i = 0; i < meeting.closed.size(); ++i)
+        if (meeting.closed[i] != ContactState::open)
+            shut.push_back(i);
+    shut.insert(shut.end(), meeting.closing.begin(), meeting.closing.end());
+    if (shut.size() < 2)
+        return false;
+    SurfaceMotion& motion = modes_.motion();
+    motion.leave_surfaces();
+    for (const std::size_t contact : shut)
+        motion.add_surface(meeting.mechanics.gap(contact), positions);
+    for (const std::size_t contact : shut)
+        if (!motion.on_surface(meeting.mechanics.gap(contact)).is_number(0))
+            return false;
+    const std::vector<Expression> images = motion.on_surface(states);
+    for (std::size_t i = 0; i < states.size(); ++i)
+        if (!(images[i] == states[i]))
+            map[i] = images[i];
+    return true;
+}
+
 StateMap ContactImpacts::rest(std::size_t base, const ContactStates& closed, const ContactStates& after,
                               const std::vector<std::size_t>& closing) const {
     const Meeting meeting{modes_.mechanics(base), closed, closing, model_.number(0)};
@@ -274,6 +302,8 @@ StateMap ContactImpacts::rest(std::size_t base, const ContactStates& closed, con
             zero.push_back(meeting.mechanics.slip(i).velocity);
     }
     StateMap map = modes_.velocity_map(meeting.mechanics.solve(after, normal, tangential).changes, zero);
+    if (put_onto_gaps(map, meeting))
+        return map;
     for (const std::size_t contact : closing) {
         const StateMap onto = modes_.motion().projection(meeting.mechanics.gap(contact));
         for (const StateMap::Change& change : onto.changes())

@@ -39,6 +39,7 @@ private:
     bool solve_at_once(const Meeting& meeting, ContactImpact& impact) const;
     bool solve_poisson(const Meeting& meeting, const ContactStates& compressed, ContactImpact& impact) const;
     void note_after(const Meeting& meeting, ContactImpact& impact) const;
+    bool put_onto_gaps(StateMap& map, const Meeting& meeting) const;
     Expression restitution(std::size_t contact) const;
 
     Model& model_;

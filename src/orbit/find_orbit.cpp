@@ -64,7 +64,8 @@ private:
             motion_->durations.pop_back();
             motion_->starts.pop_back();
         }
-        if (count < fewest_contacts && !motion_->segments.empty()) {
+        const bool is_segment = model_->model().transitions[contact.transition].chatter.has_value();
+        if (!is_segment || (count < fewest_contacts && !motion_->segments.empty())) {
             motion_->problem = accumulation_in_words(model_->model(), contact, mixed);
             return;
         }
@@ -148,6 +149,8 @@ public:
         const Segment segment{passage.mode, SegmentEnd::section, section_of_probe_[passage.probe]};
         if (is_wanted(segment))
             note(passage.time, segment, passage.state);
+        else
+            elsewhere_ = segment;
     }
     bool stop() override {
         constexpr std::size_t seldom = 64;
@@ -175,9 +178,16 @@ public:
     const std::optional<OrbitSolution>& failed() const { return failed_; }
     /// Returns how far the motion was followed, or why it ended.
     std::string extent() const {
-        return problem_.empty()
-                   ? fmt::format("{} segments in a time of {:.6g} were looked at", entries_.size() - 1, followed_time_)
-                   : problem_;
+        if (!problem_.empty())
+            return problem_;
+        std::string text =
+            fmt::format("{} segments in a time of {:.6g} were looked at", entries_.size() - 1, followed_time_);
+        if (elsewhere_ && entries_.size() == 1) {
+            const std::string section = end_name(system_.model(), *elsewhere_),
+                              &mode = system_.model().modes[elsewhere_->mode].name;
+            text += fmt::format(", and '{}' is passed in the mode '{}': write '{}:{}'", section, mode, mode, section);
+        }
+        return text;
     }
 
 private:
@@ -204,7 +214,8 @@ private:
         std::size_t count = 0;
         for (; entries_.size() > 1 && entries_.back().segment == each; ++count)
             entries_.pop_back();
-        if (count < fewest_contacts && entries_.size() > 1) {
+        const bool is_segment = system_.model().transitions[contact.transition].chatter.has_value();
+        if (!is_segment || (count < fewest_contacts && entries_.size() > 1)) {
             problem_ = accumulation_in_words(system_.model(), contact, mixed);
             return;
         }
@@ -255,6 +266,7 @@ private:
     std::optional<OrbitSolution> found_, unphysical_, failed_;
     std::size_t steps_ = 0, trials_ = 0, next_ = 0;
     double time_ = 0, followed_time_ = 0;
+    std::optional<Segment> elsewhere_; ///< a passage of one of the sections in another mode than the signature's
     bool interrupted_ = false;
     std::string problem_;
 };

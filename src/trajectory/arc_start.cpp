@@ -21,6 +21,8 @@ constexpr double jump_roundoff = 1e-10;
 
 /// Relative uncertainty of a state after the few operations of a jump.
 constexpr double state_roundoff = 16 * std::numeric_limits<double>::epsilon();
+/// The same of an event's function after a flight, relative to its largest value.
+constexpr double flight_roundoff = 4 * std::numeric_limits<double>::epsilon();
 /// At most this share of the size of an event's function is attributed to errors.
 constexpr double most_uncertain = 1e-3;
 
@@ -40,6 +42,10 @@ void Trajectory::begin_arc(double step) {
     const auto& mode = *compiled_mode_;
     const bool first = start_event_ == no_event && !stuck_ && contacts_ == 0 && steps_ == 0;
     if (first && begins_beside_surface())
+        return;
+    if (start_event_ != no_event &&
+        (complete_joint_chatter(step, contacts_now_ > simulation_.options().contacts_at_once / 2) ||
+         complete_spiral(step)))
         return;
     for (std::size_t w = 0; w < mode.watched.size(); ++w)
         if (!classify(w, step))
@@ -136,7 +142,15 @@ double Trajectory::surface_at_start(std::size_t w, double size, double& drifted)
     else if (value > 0) // not put there by a contact: only round-off of its own terms
         at_surface = roundoff * terms_[0];
     if (value < -at_surface) { // beyond the surface, or within the uncertainty
-        at_surface = std::max(at_surface, uncertainty_at_start(w, size));
+        // The flight before the first of several contacts at this time ended with the round-off of its whole way; gaps
+        // of bodies that touch one another are differences of larger numbers.
+        const bool among_many = contacts_now_ > 0 && simulation_.model().contacts.size() > 1;
+        const double share = among_many ? roundoff : contacts_now_ > 0 ? flight_roundoff : 0;
+        double of_flight = share * event_sizes_[event].largest;
+        if (simulation_.system().contacts_of(mode_))
+            for (const std::size_t other : compiled_mode_->watched)
+                of_flight = std::max(of_flight, share * event_sizes_[other].largest);
+        at_surface = std::max({at_surface, uncertainty_at_start(w, size), of_flight});
         if (value < -at_surface)
             at_surface = drifted = drift(event, std::max(size, terms_[0]));
     }

@@ -18,6 +18,23 @@ namespace {
 /// Consecutive contacts required before an accumulation is considered.
 constexpr int fewest_contacts_of_chatter = 3;
 
+/// Returns whether the rest of one contact would put a state beyond another barrier: contacts that take turns rest
+/// together, and not yet.
+/// @param inputs the state at the accumulation, and the parameters
+bool leads_beyond(const System& system, std::size_t mode, std::size_t event, std::size_t jump,
+                  std::vector<double> inputs, double tolerance, std::span<double> work) {
+    const auto& watched = system.mode(mode).watched;
+    std::vector<double> after(system.states()), values(watched.size());
+    system.jump(jump).map.evaluate(inputs, after, work);
+    std::copy(after.begin(), after.end(), inputs.begin());
+    system.mode(mode).events.evaluate(inputs, values, work);
+    for (std::size_t w = 0; w < watched.size(); ++w)
+        if (watched[w] != event && system.model().events[watched[w]].kind == EventKind::barrier &&
+            values[w] < -tolerance)
+            return true;
+    return false;
+}
+
 } // namespace
 
 void Trajectory::remember_contact(std::size_t event, double rate) {
@@ -44,6 +61,8 @@ bool Trajectory::complete_chatter(std::size_t w, double step) {
     const auto c = event_series(w);
     const double speed = c[1], deceleration = -2 * c[2];
     history.speed = speed;
+    if (simulation_.system().contacts_of(mode_))
+        history.interrupted = false; // its own flight is known; for contacts that hit one another see joint_chatter.cpp
     if (history.count < fewest_contacts_of_chatter || !(deceleration > 0))
         return false;
     const double ratio = history.interrupted ? speed / history.previous_speed : speed / -history.rate;
@@ -67,16 +86,57 @@ bool Trajectory::complete_chatter(std::size_t w, double step) {
     if (height > low || !(change < 0.01) || !(neglected * steady <= allowed * step) ||
         remaining > (end_time_ - time_) - time_low_ || (!history.interrupted && another_event_within(w, remaining)))
         return false;
+    const Model& model = simulation_.model();
+    if (const auto& rest = model.transitions[history.transition].chatter;
+        rest && (history.interrupted || model.contacts.size() > 1)) {
+        std::vector<double> there(inputs_);
+        const double impulse = (deceleration - 3 * c[3] * remaining) * remaining - speed;
+        for (std::size_t i = 0; i < states_; ++i)
+            there[i] = state_[i] + remaining * series(i)[1] +
+                       (periods_[i] > 0 ? 0 : impulse / (speed - history.rate) * (after_[i] - before_[i]));
+        if (leads_beyond(simulation_.system(), mode_, compiled_mode_->watched[w], rest->jump, std::move(there),
+                         16 * roundoff * terms_[0], work_))
+            return false;
+    }
     // If each contact changes the mode, for example by making a frame slip that soon stops again, the accumulation is
     // that of the transition made at the contacts.
     stick(w, history.transition, remaining, (deceleration - 3 * c[3] * remaining) * remaining - speed);
     return true;
 }
 
+/// Returns whether another event may happen during the last contacts at one. Impacts of one contact may move the gap of
+/// another: it is then that of its flight, less a share of what the contact that bounces misses of a free flight.
 bool Trajectory::another_event_within(std::size_t w, double time) {
+    const System& system = simulation_.system();
+    const System::ContactsOfMode* here = system.contacts_of(mode_);
+    const System::CompiledContacts* contacts = here != nullptr ? &system.contacts(here->contacts) : nullptr;
+    const auto place_of = [&](std::size_t watched) {
+        return static_cast<std::size_t>(std::ranges::find(contacts->events, compiled_mode_->watched[watched]) -
+                                        contacts->events.begin());
+    };
+    const std::size_t n = contacts != nullptr ? contacts->events.size() : 0, own_place = n > 0 ? place_of(w) : 0;
+    if (own_place < n) {
+        contact_values_.resize(n * (n + 4 + contacts->velocities.size()));
+        std::copy(state_.begin(), state_.end(), inputs_.begin());
+        contacts->values.evaluate(inputs_, contact_values_, work_);
+    }
+    const auto own = event_series(w);
     for (std::size_t other = 0; other < compiled_mode_->watched.size(); ++other) {
         const auto c = event_series(other);
-        if (other != w && c[0] > 0 && c[0] + time * c[1] < 0)
+        const std::size_t place = own_place < n ? place_of(other) : n;
+        if (other == w)
+            continue;
+        if (place >= n) {
+            if (c[0] > 0 && c[0] + time * c[1] < 0)
+                return true;
+            continue;
+        }
+        const double* const response = &contact_values_[4 * n];
+        const double share = response[place * n + own_place] / response[own_place * n + own_place];
+        const double start = c[0] + std::min(0.0, share * own[1] * own[1] / (-4 * own[2])),
+                     rate = c[1] - share * own[1], bend = c[2] - share * own[2];
+        const double turn = bend > 0 && rate < 0 ? std::min(time, -rate / (2 * bend)) : time;
+        if (!(std::min(start, start + turn * (rate + turn * bend)) > 0))
             return true;
     }
     return false;
@@ -87,15 +147,20 @@ bool Trajectory::another_event_within(std::size_t w, double time) {
 void Trajectory::judge_stand_still() {
     const ContactHistory history = histories_[start_event_];
     hand_over_contact();
-    if (history.count >= simulation_.options().contacts_at_once / 20) {
+    const bool together = simulation_.system().contacts_of(mode_) != nullptr;
+    const int most = simulation_.options().contacts_at_once;
+    if (!together && history.count >= most / 20 && contacts_nearby_ / 10 <= most) {
+        contacts_now_ = 0;
         before_ = state_;
         if (tangents_)
             row_.assign(tangents_->directions(), 0.0);
         return come_to_rest(start_event_, history.transition, 0);
     }
     finish(Ending::no_progress, time_,
-           fmt::format("{} events happened at once {}: look for modes that hand over to one another in a circle",
-                       contacts_now_, where()));
+           fmt::format("{} events happened at once {}: {}", std::max(contacts_now_, contacts_nearby_), where(),
+                       together ? "impacts in several contacts follow one another, and it cannot be decided whether "
+                                  "they come to rest together; take a smaller restitution, or another law of impact"
+                                : "look for modes that hand over to one another in a circle"));
 }
 
 /// Completes an accumulation of contacts that ends `remaining` after the present state. The remaining contacts change
@@ -108,14 +173,37 @@ void Trajectory::stick(std::size_t w, std::size_t index, double remaining, doubl
     fields_.resize(2 * states_);
     if (tangents_)
         carry_tangents_to_rest(w, remaining, share > 0 ? 1 / last_impulse : 0);
+    const bool alone = share > 0 && !histories_[event].interrupted;
+    find_displacements(alone ? -(c[0] + remaining * (c[1] + remaining * c[2])) / last_impulse : 0);
     for (std::size_t i = 0; i < states_; ++i) {
         const double kick = share * (after_[i] - before_[i]);
         fields_[i] = series(i)[1];
-        before_[i] = state_[i] + remaining * fields_[i] + (periods_[i] > 0 ? 0 : kick);
+        const double bend = alone ? remaining * series(i)[2] : 0;
+        before_[i] = state_[i] + remaining * (fields_[i] + bend) + kick_[i] + (periods_[i] > 0 ? 0 : kick);
     }
     hold_surfaces(w, 0);
     add_time(remaining);
     come_to_rest(event, index, c[1]);
+}
+
+/// Sets `kick_` to what the remaining contacts displace: the states that contacts do not change themselves, but whose
+/// rates they change. @param share of the change by the last contact, times the time for which it lasts
+void Trajectory::find_displacements(double share) {
+    kick_.assign(states_, 0.0);
+    if (share == 0)
+        return;
+    std::vector<double> change(states_);
+    values_.resize(std::max(values_.size(), states_));
+    const auto rates = [&](const std::vector<double>& state) {
+        std::copy(state.begin(), state.end(), inputs_.begin());
+        compiled_mode_->rates.evaluate(inputs_, values_, work_);
+    };
+    rates(after_);
+    std::copy_n(values_.begin(), states_, change.begin());
+    rates(before_);
+    for (std::size_t i = 0; i < states_; ++i)
+        if (after_[i] == before_[i] && std::isfinite(change[i] - values_[i]))
+            kick_[i] = share * (change[i] - values_[i]);
 }
 
 /// Makes the declared sticking transition, from `before_`.

@@ -119,6 +119,7 @@ void Trajectory::apply_transition(std::size_t transition, double rate) {
     pending_->rate_before = rate;
     start_event_ = pending_->event;
     stuck_ = false;
+    const std::size_t mode_before = mode_;
     jump(compiled.jump);
     bool ends = false;
     const auto next = next_mode(transition, ends);
@@ -130,7 +131,15 @@ void Trajectory::apply_transition(std::size_t transition, double rate) {
         return finish(Ending::terminal, time_);
     }
     enter(compiled.jump, *next);
-    if (!finished() && contacts_now_ > simulation_.options().contacts_at_once)
+    remember_crossing(start_event_, mode_before);
+    constexpr double hardly_any = 1e-13;
+    if (std::abs(time_ - nearby_since_) > hardly_any * std::max(std::abs(time_ - start_time_), largest_step_)) {
+        nearby_since_ = time_;
+        contacts_nearby_ = 0;
+    }
+    ++contacts_nearby_;
+    const int most = simulation_.options().contacts_at_once;
+    if (!finished() && (contacts_now_ > most || contacts_nearby_ / 10 > most))
         judge_stand_still();
 }
 

@@ -114,7 +114,9 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
     std::fill(surface_values_.begin(), surface_values_.end(), 0.0);
     std::fill(holds_.begin(), holds_.end(), Hold{});
     contacts_ = 0;
-    contacts_now_ = 0;
+    contacts_now_ = contacts_nearby_ = 0;
+    nearby_since_ = time;
+    crossings_.clear();
     tangents_.reset();
     probes_->start(state_);
 }

@@ -445,4 +445,42 @@ contacts.slope = {{ gap = "{0:.17g}*x - ({1:.17g})*y", restitution = {2}, fricti
     EXPECT_EQ(experiment.simulation.model().modes[hit.mode_after].name, "free-floor-forward");
 }
 
+/// A rod that lies down while it slides: its corners come to rest together, in normal direction only, and the slip of
+/// both ends u/(mu g) later.
+TEST(Contacts, RodLiesDownAndSlides) {
+    for (const char* law : {"newton", "moreau"})
+        for (const double mu : {0.05, 0.067, 0.1}) {
+            SCOPED_TRACE(fmt::format("{}, mu = {}", law, mu));
+            Experiment experiment(model_from(fmt::format(
+                "parameters = {{ g = 9.81, mu = {} }}\nstates = {{ x = 0, y = 1, phi = 0, u = 1.899, v = 0.018, w = "
+                "2.528 }}\n"
+                "modes.free.rates = {{ x = \"u\", y = \"v\", phi = \"w\", u = 0, v = \"-g\", w = 0 }}\n"
+                "contacts.law = \"{}\"\ncontacts.velocities = [\"u\", \"v\", \"w\"]\ncontacts.mass = [1, 1, 1.909]\n"
+                "contacts.left = {{ gap = \"y - sin(phi) - 0.2*cos(phi)\", restitution = 0, friction = \"mu\", slip = "
+                "\"u + "
+                "w*y\" }}\n"
+                "contacts.right = {{ gap = \"y + sin(phi) - 0.2*cos(phi)\", restitution = 0, friction = \"mu\", slip = "
+                "\"u "
+                "+ w*y\" }}\ninitial.mode = \"free\"\n",
+                mu, law)));
+            const Outcome& outcome = experiment.run(20);
+            ASSERT_EQ(outcome.ending, Ending::end_time) << outcome.detail;
+            const Model& model = experiment.simulation.model();
+            EXPECT_EQ(model.modes[experiment.trajectory.mode()].name, "free-left-stick-right-stick");
+            double lies = -1, slip = 0, stops = -1;
+            for (const auto& one : experiment.recorder.contacts()) {
+                const std::string& after = model.modes[one.contact.mode_after].name;
+                if (after == "free-left-forward-right-forward") {
+                    lies = one.contact.time;
+                    slip = one.after[3];
+                }
+                if (after == "free-left-stick-right-stick" && stops < 0)
+                    stops = one.contact.time;
+            }
+            if (lies < 0)
+                continue; // it sticks at once
+            EXPECT_NEAR(stops, lies + slip / (mu * 9.81), 1e-11);
+        }
+}
+
 } // namespace contacts_test

@@ -97,6 +97,22 @@ public:
         std::vector<CompiledAlternative> next;
     };
 
+    /// The contacts of a model in one of its written modes, if they have no friction and impacts follow one another.
+    struct CompiledContacts {
+        std::size_t base = 0;                ///< the written mode, in which all are open
+        std::vector<std::size_t> events;     ///< at which each of n contacts closes
+        std::vector<std::size_t> velocities; ///< states that impulses change
+        /// Of each contact: its gap, the rate of this, its acceleration without contact forces, and the coefficient of
+        /// restitution, n numbers each; then, row by row, the change of each rate by a unit impulse in each contact;
+        /// then for each contact the change of the velocities by a unit impulse.
+        Function values;
+    };
+    /// What a mode has of them.
+    struct ContactsOfMode {
+        std::size_t contacts = 0; ///< see `contacts`
+        std::vector<bool> closed; ///< which of them are
+    };
+
     /// Returns the same system, with tapes that also compute series of further expressions along the flow, in every
     /// mode.
     /// @param expressions in the model's symbols, of any graph
@@ -123,6 +139,13 @@ public:
     const CompiledTransition& transition(std::size_t index) const {
         return item_at(parts_->transitions, index, "transition");
     }
+    /// Returns what a mode has of contacts without friction of which at least two can be closed, whose impacts follow
+    /// one another; null if it has none.
+    const ContactsOfMode* contacts_of(std::size_t mode) const {
+        const auto& one = item_at(parts_->contact_modes, mode, "mode");
+        return one ? &*one : nullptr;
+    }
+    const CompiledContacts& contacts(std::size_t index) const { return item_at(parts_->contacts, index, "contacts"); }
     /// Returns a symmetry's map of states.
     const CompiledJump& symmetry(std::size_t index) const { return item_at(parts_->symmetries, index, "symmetry"); }
     /// Returns an event's function: value, then derivatives with respect to states and parameters.
@@ -162,6 +185,8 @@ private:
         std::size_t states = 0, parameters = 0, jacobian_entries = 0;
         std::vector<CompiledJump> jumps, symmetries;
         std::vector<CompiledTransition> transitions;
+        std::vector<CompiledContacts> contacts;
+        std::vector<std::optional<ContactsOfMode>> contact_modes; ///< of each mode
         std::vector<Function> events;
         std::vector<std::vector<Function>> sections; ///< for each section: its function, then that under each symmetry
         Function periods, period_gradients, initial;

@@ -22,6 +22,7 @@ namespace graze {
 
 class ModeFlow;
 class ProbeTracker;
+struct JointRest;
 class TableSteps;
 class Tangents;
 
@@ -120,6 +121,12 @@ private:
         double speed = 0;           ///< separation speed after the last
         double previous_speed = 0;  ///< separation speed after the one before
     };
+    /// A passage from one mode to another without a jump.
+    struct Crossing {
+        std::size_t event = 0, mode_before = 0, mode_after = 0;
+        double time = 0, time_low = 0;
+        std::vector<double> state{};
+    };
     /// A surface on which a contact left the motion, while no mode watches it: the motion may rest on it.
     struct Hold {
         bool on = false;
@@ -211,7 +218,21 @@ private:
     bool another_event_within(std::size_t watched, double time);
     void judge_stand_still();
     void stick(std::size_t watched, std::size_t transition, double remaining, double impulse);
+    void find_displacements(double share);
     void come_to_rest(std::size_t event, std::size_t transition, double rate);
+    // Contacts that come to rest together (joint_chatter.cpp)
+    bool complete_joint_chatter(double step, bool standing_still);
+    bool is_nearby(std::size_t watched, double step, bool standing_still);
+    bool is_steady(double time, double longest_error);
+    void move_to_rest(const std::vector<std::size_t>& members, const JointRest& rest);
+    void rest_together(const std::vector<std::size_t>& events);
+    std::optional<std::size_t> transition_to_rest(std::size_t event) const;
+    // Surfaces that are crossed in turn, ever faster (spiral.cpp)
+    void remember_crossing(std::size_t event, std::size_t mode_before);
+    bool complete_spiral(double step);
+    std::size_t length_of_turn() const;
+    bool is_at_surface(std::size_t event, double step);
+    std::optional<std::size_t> transition_at_corner(std::size_t turn) const;
     void carry_tangents_to_rest(std::size_t watched, double remaining, double per_impulse);
 
     std::span<const double> series(std::size_t index);
@@ -249,6 +270,8 @@ private:
     std::vector<double> surface_values_; ///< value of each event's function at the contact that put it on its surface
     std::vector<Hold> holds_;            ///< for each event
     std::vector<double> uncertain_;      ///< errors of the inputs of functions
+    std::vector<Crossing> crossings_;    ///< the last ones, from which spirals are detected
+    std::vector<double> contact_values_; ///< of contacts that may come to rest together: see System::CompiledContacts
     std::vector<std::size_t> together_;  ///< simultaneous events that are still to be handled
 
     Outcome outcome_;
@@ -270,6 +293,8 @@ private:
     std::vector<ContactHistory> histories_; ///< for each event
     std::size_t contacts_ = 0;
     int contacts_now_ = 0;
+    int contacts_nearby_ = 0; ///< contacts since `nearby_since_`, between which hardly any time passes
+    double nearby_since_ = 0;
 };
 
 /// Runs one trajectory to its end.
