@@ -96,9 +96,11 @@ public:
         if (is_outside(settings_, at))
             throw InputError(fmt::format("the torus point lies at {:.10g}, outside the bounds", at),
                              "widen the bounds of the parameter");
-        set_up(point.solution.orbit);
-        monitors_ = std::make_unique<OrbitMonitors>(system, point.solution.orbit.signature, settings.monitors,
-                                                    settings.orbit.tolerance);
+        // Rotation numbers and growth are those of whole returns, as the period is: a symmetry is not made use of.
+        const Orbit whole = whole_orbit(system, point.solution.orbit);
+        set_up(whole);
+        monitors_ =
+            std::make_unique<OrbitMonitors>(system, whole.signature, settings.monitors, settings.orbit.tolerance);
     }
 
     bool start();

@@ -37,6 +37,23 @@ public:
         auto image = image_from(turns);
         return image ? std::optional(std::move(image->motion)) : std::nullopt;
     }
+    /// Returns the motions from equally spaced angles: those at which the equations hold, and as many between as show
+    /// what happens along a return. Few harmonics suffice for the circle itself, but not for that.
+    std::vector<Orbit> motions() const {
+        constexpr std::size_t fewest = 24;
+        const std::size_t terms = problem_->terms(), parts = (fewest + terms - 1) / terms;
+        std::vector<Orbit> result;
+        for (std::size_t j = 0; j < terms * parts; ++j) {
+            if (j % parts == 0) {
+                result.push_back(problem_->images()[j / parts].motion);
+            } else if (auto motion = motion_from(static_cast<double>(j) / static_cast<double>(terms * parts))) {
+                result.push_back(std::move(*motion));
+            } else {
+                return {};
+            }
+        }
+        return result;
+    }
 
 private:
     const TorusProblem* problem_;
@@ -125,8 +142,8 @@ double growth_away(const TorusProblem& problem, std::span<const double> u) {
     return std::exp(sum / static_cast<double>(angles * returns));
 }
 
-/// Checks whether the model would follow the motions from all angles. They are looked at from those at which the
-/// equations hold and, where an event is nearly touched, from the angle at which its function is least.
+/// Checks whether the model would follow the motions from all angles. They are looked at from equally spaced ones and,
+/// where an event is nearly touched, from the angle at which its function is least.
 class MotionCheck {
 public:
     MotionCheck(const TorusProblem& problem, const TorusAngles& angles, const Simulation& simulation, TorusFacts& facts)
@@ -134,15 +151,22 @@ public:
 
     void check() {
         constexpr double near = 0.2; // of the function's size: other events are not nearly touched
+        const std::vector<Orbit> motions = angles_.motions();
+        if (motions.empty()) {
+            facts_.admissible = false;
+            facts_.reason = "the motion from some angles does not return";
+        }
         std::map<EventOfSegment, std::vector<double>> gaps;
         std::map<EventOfSegment, double> sizes;
-        for (const SignatureReturn::Image& image : problem_.images())
-            for (const auto& [event, gap] : certified(image.motion)) {
-                gaps[event].push_back(gap.value);
-                sizes[event] = std::max(sizes[event], gap.size);
+        for (std::size_t j = 0; j < motions.size() && facts_.admissible; ++j)
+            for (const auto& [event, gap] : certified(motions[j])) {
+                gaps.try_emplace(event, motions.size(), infinity).first->second[j] = gap.value;
+                sizes[event] = std::max({sizes[event], gap.size, std::abs(gap.value)});
             }
         for (const auto& [event, values] : gaps) {
-            if (values.size() < problem_.terms() || *std::ranges::min_element(values) > near * sizes[event])
+            if (!facts_.admissible)
+                return;
+            if (std::abs(*std::ranges::min_element(values)) > near * sizes[event])
                 continue;
             least_around(values, [this, &event = event](double turns) -> std::optional<double> {
                 const auto motion = facts_.admissible ? angles_.motion_from(turns) : std::nullopt;
@@ -150,14 +174,15 @@ public:
                     return std::nullopt;
                 const auto found = certified(*motion);
                 const auto gap = found.find(event);
-                return gap == found.end() ? std::nullopt : std::optional(gap->second.value);
+                return gap == found.end() ? infinity : gap->second.value;
             });
         }
     }
 
 private:
     using EventOfSegment = std::pair<std::size_t, std::size_t>;
-    /// Notes the certificate of a motion. @return the least values of the functions of events along it
+    /// Notes the certificate of a motion. @return the least values of the functions of events along it, ends included:
+    /// where a minimum has moved beyond the end of a return, the motion after it has it
     std::map<EventOfSegment, OrbitMinimum> certified(const Orbit& motion) {
         Shooting shooting(simulation_, motion, {});
         OrbitEvaluation at = shooting.evaluation();
@@ -179,6 +204,15 @@ private:
             const auto [one, added] = least.try_emplace({minimum.segment, minimum.event}, minimum);
             if (!added && minimum.value < one->second.value)
                 one->second = minimum;
+        }
+        const std::vector<Event>& events = simulation_.model().events;
+        for (const EndValue& end : certificate.end_values) {
+            if (events[end.event].kind == EventKind::section) // may have either sign
+                continue;
+            const auto [one, added] = least.try_emplace({end.segment, end.event});
+            if (added)
+                one->second = {end.segment, end.event, motion.durations[end.segment], end.value, std::abs(end.value)};
+            one->second.value = std::min(one->second.value, end.value);
         }
         return least;
     }
@@ -209,12 +243,12 @@ std::vector<double> extremes_of(const TorusProblem& problem, std::span<const dou
     const auto sign_of = [&](std::size_t m) {
         return monitors.monitors()[m].kind == Monitor::Kind::maximum ? -1.0 : 1.0;
     };
-    for (const SignatureReturn::Image& image : problem.images()) {
-        const std::vector<double> values = monitors(image.motion);
+    const TorusAngles angles(problem, u);
+    for (const Orbit& motion : angles.motions()) {
+        const std::vector<double> values = monitors(motion);
         for (std::size_t m = 0; m < values.size(); ++m)
             samples[m].push_back(sign_of(m) * values[m]);
     }
-    const TorusAngles angles(problem, u);
     std::vector<double> extremes;
     for (std::size_t m = 0; m < samples.size(); ++m)
         extremes.push_back(sign_of(m) * least_around(samples[m], [&](double turns) -> std::optional<double> {
