@@ -1,5 +1,6 @@
 #include "branch/torus_facts.hpp"
 
+#include "base/concatenated.hpp"
 #include "base/special_numbers.hpp"
 #include "branch/circle_minimum.hpp"
 #include "orbit/certify.hpp"
@@ -146,8 +147,8 @@ double growth_away(const TorusProblem& problem, std::span<const double> u) {
 /// where an event is nearly touched, from the angle at which its function is least.
 class MotionCheck {
 public:
-    MotionCheck(const TorusProblem& problem, const TorusAngles& angles, const Simulation& simulation, TorusFacts& facts)
-        : problem_(problem), angles_(angles), simulation_(simulation), facts_(facts) {}
+    MotionCheck(const TorusAngles& angles, const Simulation& simulation, TorusFacts& facts)
+        : angles_(angles), simulation_(simulation), facts_(facts) {}
 
     void check() {
         constexpr double near = 0.2; // of the function's size: other events are not nearly touched
@@ -205,19 +206,42 @@ private:
             if (!added && minimum.value < one->second.value)
                 one->second = minimum;
         }
-        const std::vector<Event>& events = simulation_.model().events;
-        for (const EndValue& end : certificate.end_values) {
-            if (events[end.event].kind == EventKind::section) // may have either sign
-                continue;
-            const auto [one, added] = least.try_emplace({end.segment, end.event});
+        const auto note = [&](const EventOfSegment& event, double time, double value) {
+            const auto [one, added] = least.try_emplace(event);
             if (added)
-                one->second = {end.segment, end.event, motion.durations[end.segment], end.value, std::abs(end.value)};
-            one->second.value = std::min(one->second.value, end.value);
-        }
+                one->second = {event.first, event.second, time, value, std::abs(value)};
+            one->second.value = std::min(one->second.value, value);
+        };
+        for (const EndValue& end : certificate.end_values)
+            if (kind_of(end.event) != EventKind::section) // may have either sign
+                note({end.segment, end.event}, motion.durations[end.segment], end.value);
+        for (std::size_t s = 0; s < motion.segments(); ++s)
+            note_start(motion, s, note);
         return least;
     }
 
-    const TorusProblem& problem_;
+    EventKind kind_of(std::size_t event) const { return simulation_.model().events[event].kind; }
+
+    /// Notes the barriers at the start of a segment, beyond which a jump may lead; but not that from which it jumps.
+    template <class Note>
+    void note_start(const Orbit& motion, std::size_t segment, const Note& note) const {
+        const System& system = simulation_.system();
+        const System::CompiledMode& mode = system.mode(motion.signature[segment].mode);
+        const std::size_t before = (segment + motion.segments() - 1) % motion.segments();
+        const Transition* const made = transition_of(system.model(), motion.signature[before]);
+        std::vector<double> values;
+        for (std::size_t w = 0; w < mode.watched.size(); ++w) {
+            const std::size_t event = mode.watched[w];
+            const bool is_left =
+                made && (made->event == event || std::ranges::find(made->also, event) != made->also.end());
+            if (kind_of(event) != EventKind::barrier || is_left)
+                continue;
+            if (values.empty())
+                values = mode.events(concatenated(motion.starts[segment], motion.parameters));
+            note({segment, event}, 0, values[w]);
+        }
+    }
+
     const TorusAngles& angles_;
     const Simulation& simulation_;
     TorusFacts& facts_;
@@ -230,7 +254,7 @@ TorusFacts facts_of(const TorusProblem& problem, std::span<const double> u, cons
     facts.tail = problem.tail_of(u);
     facts.approach_speeds.assign(problem.setting().back->first().segments(), infinity);
     const TorusAngles angles(problem, u);
-    MotionCheck(problem, angles, simulation, facts).check();
+    MotionCheck(angles, simulation, facts).check();
     if (!facts.admissible)
         return facts; // nothing else is asked of a torus that the model would not follow
     facts.growth = growth_away(problem, u);
