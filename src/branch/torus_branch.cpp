@@ -4,6 +4,7 @@
 #include "base/enumerator_name.hpp"
 #include "branch/bounds.hpp"
 #include "branch/resonances.hpp"
+#include "branch/torus_amplitude.hpp"
 #include "branch/torus_facts.hpp"
 #include "graze/base/input_error.hpp"
 #include "orbit/shooting.hpp"
@@ -40,12 +41,6 @@ void require_extremes(const std::vector<Monitor>& monitors) {
             throw InputError(fmt::format("monitor '{}' has no single value on a torus", one.name),
                              "choose a maximum or a minimum");
 }
-
-/// The multiplier of a torus point with a positive imaginary part, and its vector, in scaled active states.
-struct TurningPair {
-    std::complex<double> multiplier;
-    Eigen::VectorXcd vector;
-};
 
 TurningPair turning_pair(const Eigen::MatrixXd& derivatives) {
     constexpr double near = 1e-3, real = 1e-6; // located points are far more accurate
@@ -93,7 +88,7 @@ public:
             throw InputError("tori are followed in one parameter, and not along a family", "name one parameter alone");
         settings_.continuation.accuracy = std::max(settings.continuation.accuracy, settings.orbit.accuracy);
         const double at = point.solution.orbit.parameters[settings.parameter.place()];
-        if (is_outside(settings_, at))
+        if (is_beyond_bounds(at))
             throw InputError(fmt::format("the torus point lies at {:.10g}, outside the bounds", at),
                              "widen the bounds of the parameter");
         // Rotation numbers and growth are those of whole returns, as the period is: a symmetry is not made use of.
@@ -110,6 +105,14 @@ public:
     const std::string& detail() const { return detail_; }
 
 private:
+    /// Bounds may begin at the torus point, which is known to its accuracy.
+    bool is_beyond_bounds(double at) const {
+        constexpr double accuracy = 1e-8; // share of the range
+        const double range = settings_.least && settings_.greatest ? *settings_.greatest - *settings_.least : 0,
+                     off = accuracy * std::max(range, std::abs(at));
+        return is_outside(settings_, at) && is_outside(settings_, at - off) && is_outside(settings_, at + off);
+    }
+
     bool end(TorusOutcome outcome, std::string detail) {
         outcome_ = outcome;
         detail_ = std::move(detail);
@@ -163,6 +166,7 @@ void TorusBranch::Follower::set_up(const Orbit& orbit) {
     const Eigen::VectorXd scales = setting_.scales(setting_.active);
     const TurningPair pair = turning_pair(scales.cwiseInverse().asDiagonal() *
                                           image->derivatives(setting_.active, setting_.active) * scales.asDiagonal());
+    scale_by_amplitude(setting_, *image, parameter, pair);
     problem_ = std::make_shared<TorusProblem>(setting_, std::min(harmonics, resolution_.harmonics));
     origin_.assign(problem_->unknowns(), 0.0);
     direction_ = origin_;

@@ -91,6 +91,17 @@ TEST(TorusBranch, NormalFormHasItsClosedForm) {
     EXPECT_EQ(passed, "2/7 1/4 1/5 1/6 ");
 }
 
+TEST(TorusBranch, BoundsMayBeginAtTheTorusPoint) {
+    const Model model = normal_form(0.3, 0.7).model();
+    BranchSettings settings = in_parameter(model, "p", -0.1, 0.2);
+    const SpecialPoint point = torus_point(model, settings);
+    settings.least = point.parameter + 1e-13;
+    TorusBranch branch(System(model), point, settings);
+    ASSERT_FALSE(all_of(branch).empty()) << branch.detail();
+    EXPECT_EQ(branch.outcome(), TorusOutcome::bound);
+    EXPECT_EQ(branch.point().parameter, 0.2);
+}
+
 /// With the other sign of the cubic terms the tori are unstable, and are where the orbit is stable.
 TEST(TorusBranch, UnstableToriAreFollowedAlike) {
     OneMode parts = normal_form(0.21, 0.3);
@@ -223,6 +234,32 @@ TEST(TorusBranch, OfASymmetricOrbitIsThatOfItsWholeReturn) {
             EXPECT_NEAR(one.facts.growth, std::exp(-4 * pi * p), 1e-9) << p << symmetry;
             EXPECT_NEAR(one.motion.period(), 2 * pi, 1e-9);
             EXPECT_NEAR(one.monitors[0], 1 + std::sqrt(p), 1e-9);
+        }
+    }
+}
+
+/// States that are zero on the orbit have no extent there: their unit is that of the nonlinear terms, whatever it is.
+TEST(TorusBranch, OfAStateThatRestsHaveTheSizeOfTheirNonlinearTerms) {
+    for (const double unit : {1e-6, 1e-3, 1.0, 1e3, 1e6}) {
+        const Model model = OneMode{.parameters = fmt::format("p = -0.1\nunit = {}", unit),
+                                    .states = "x = 0\ny = 0\nq = 0.5",
+                                    .definitions = "r = '(x/unit)^2 + (y/unit)^2'",
+                                    .rates = "x = 'p*x - 0.3*y - (x - 0.7*y)*r', y = '0.3*x + p*y - (y + 0.7*x)*r', "
+                                             "q = 'cos(theta) - q'",
+                                    .clock = "1"}
+                                .model();
+        BranchSettings settings = in_parameter(model, "p", -0.1, 0.2);
+        const SpecialPoint point = torus_point(model, settings);
+        settings.monitors = {extreme(model, "x", Monitor::Kind::maximum)};
+        TorusBranch branch(System(model), point, settings);
+        const std::vector<TorusPoint> points = all_of(branch);
+        ASSERT_EQ(branch.outcome(), TorusOutcome::bound) << unit << branch.detail();
+        EXPECT_LT(points.size(), 60U);
+        for (const TorusPoint& one : points) {
+            const double p = one.parameter;
+            EXPECT_NEAR(one.torus.rotation, 0.3 - 0.7 * p, 1e-10) << unit << ' ' << p;
+            EXPECT_NEAR(one.facts.growth, std::exp(-4 * pi * p), 1e-9) << unit << ' ' << p;
+            EXPECT_NEAR(one.monitors[0], unit * std::sqrt(p), 1e-9 * unit) << unit << ' ' << p;
         }
     }
 }
