@@ -42,6 +42,17 @@ void require_extremes(const std::vector<Monitor>& monitors) {
                              "choose a maximum or a minimum");
 }
 
+/// Refuses orbits of which an active state does not return, as the footholds of a walk, which matter by their distance.
+void require_return(const Model& model, const TorusSetting& setting, const SignatureReturn::Image& image) {
+    constexpr double same = 1e-6; // in the scales of the states
+    for (const std::size_t i : setting.active)
+        if (!(std::abs(image.after[i] - image.motion.starts[0][i]) <= same * setting.scales[index(i)]))
+            throw InputError(fmt::format("state '{}' does not return, but only its distance from other states: tori of "
+                                         "such motions are not followed",
+                                         model.states[i].name),
+                             "write the model in such distances");
+}
+
 TurningPair turning_pair(const Eigen::MatrixXd& derivatives) {
     constexpr double near = 1e-3, real = 1e-6; // located points are far more accurate
     const auto system = eigensystem(derivatives);
@@ -163,6 +174,7 @@ void TorusBranch::Follower::set_up(const Orbit& orbit) {
     const auto image = setting_.back->follow(orbit.starts[0], parameter, orbit.durations);
     if (!image)
         throw InputError("the orbit cannot be followed: " + setting_.back->problem(), "choose another torus point");
+    require_return(simulation_.model(), setting_, *image);
     const Eigen::VectorXd scales = setting_.scales(setting_.active);
     const TurningPair pair = turning_pair(scales.cwiseInverse().asDiagonal() *
                                           image->derivatives(setting_.active, setting_.active) * scales.asDiagonal());

@@ -412,6 +412,17 @@ TEST(TorusBranch, RefusesOtherPointsAndNumbers) {
     refused("no complex pair of multipliers on the unit circle");
 }
 
+TEST(TorusBranch, RefusesMotionsOfWhichOnlyDistancesReturn) {
+    const Model model = shipped_with("spring-walker", {});
+    const auto found = orbit_with_signature(System(model), parse_signature(model, "touchdown takeoff"));
+    ASSERT_TRUE(found);
+    SpecialPoint point;
+    point.type = PointType::torus;
+    point.solution = *found;
+    EXPECT_THAT(message_of([&] { TorusBranch(System(model), point, in_parameter(model, "k", 10000, 18000)); }),
+                HasSubstr("only its distance from other states"));
+}
+
 TEST(TorusBranch, AskedBeforeItsStartHasNoTorus) {
     const Model model = normal_form(0.3, 0.7).model();
     const BranchSettings settings = in_parameter(model, "p", -0.1, 0.2);
