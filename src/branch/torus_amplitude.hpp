@@ -1,19 +1,11 @@
 #pragma once
 
 #include "branch/torus_problem.hpp"
+#include "branch/turning_pair.hpp"
 
-#include <Eigen/Core>
-
-#include <complex>
+#include <optional>
 
 namespace graze {
-
-/// A pair of multipliers on the unit circle: that with a positive imaginary part, and its vector, in scaled active
-/// states.
-struct TurningPair {
-    std::complex<double> multiplier;
-    Eigen::VectorXcd vector;
-};
 
 /// Returns the amplitude, along the vector of the pair in the scales of the setting, beyond which the return departs
 /// from its linear part by half of it: the size of the tori that begin there. Known to a factor of 2. Empty where none

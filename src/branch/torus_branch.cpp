@@ -1,11 +1,11 @@
 #include "graze/branch/torus_branch.hpp"
 
-#include "base/decompositions.hpp"
 #include "base/enumerator_name.hpp"
 #include "branch/bounds.hpp"
 #include "branch/resonances.hpp"
 #include "branch/torus_amplitude.hpp"
 #include "branch/torus_facts.hpp"
+#include "branch/turning_pair.hpp"
 #include "graze/base/input_error.hpp"
 #include "orbit/shooting.hpp"
 
@@ -51,21 +51,6 @@ void require_return(const Model& model, const TorusSetting& setting, const Signa
                                          "such motions are not followed",
                                          model.states[i].name),
                              "write the model in such distances");
-}
-
-TurningPair turning_pair(const Eigen::MatrixXd& derivatives) {
-    constexpr double near = 1e-3, real = 1e-6; // located points are far more accurate
-    const auto system = eigensystem(derivatives);
-    std::optional<Eigen::Index> nearest;
-    for (Eigen::Index i = 0; system && i < system->values.size(); ++i) {
-        const auto off = [&](Eigen::Index k) { return std::abs(std::abs(system->values[k]) - 1); };
-        if (system->values[i].imag() > real && (!nearest || off(i) < off(*nearest)))
-            nearest = i;
-    }
-    if (!nearest || !(std::abs(std::abs(system->values[*nearest]) - 1) < near))
-        throw InputError("the orbit has no complex pair of multipliers on the unit circle",
-                         "start from a torus point (NS) of a branch of orbits");
-    return {system->values[*nearest], system->vectors.col(*nearest)};
 }
 
 } // namespace
