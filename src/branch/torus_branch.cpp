@@ -1,10 +1,11 @@
 #include "graze/branch/torus_branch.hpp"
 
-#include "base/decompositions.hpp"
 #include "base/enumerator_name.hpp"
 #include "branch/bounds.hpp"
 #include "branch/resonances.hpp"
+#include "branch/torus_amplitude.hpp"
 #include "branch/torus_facts.hpp"
+#include "branch/turning_pair.hpp"
 #include "graze/base/input_error.hpp"
 #include "orbit/shooting.hpp"
 
@@ -41,25 +42,15 @@ void require_extremes(const std::vector<Monitor>& monitors) {
                              "choose a maximum or a minimum");
 }
 
-/// The multiplier of a torus point with a positive imaginary part, and its vector, in scaled active states.
-struct TurningPair {
-    std::complex<double> multiplier;
-    Eigen::VectorXcd vector;
-};
-
-TurningPair turning_pair(const Eigen::MatrixXd& derivatives) {
-    constexpr double near = 1e-3, real = 1e-6; // located points are far more accurate
-    const auto system = eigensystem(derivatives);
-    std::optional<Eigen::Index> nearest;
-    for (Eigen::Index i = 0; system && i < system->values.size(); ++i) {
-        const auto off = [&](Eigen::Index k) { return std::abs(std::abs(system->values[k]) - 1); };
-        if (system->values[i].imag() > real && (!nearest || off(i) < off(*nearest)))
-            nearest = i;
-    }
-    if (!nearest || !(std::abs(std::abs(system->values[*nearest]) - 1) < near))
-        throw InputError("the orbit has no complex pair of multipliers on the unit circle",
-                         "start from a torus point (NS) of a branch of orbits");
-    return {system->values[*nearest], system->vectors.col(*nearest)};
+/// Refuses orbits of which an active state does not return, as the footholds of a walk, which matter by their distance.
+void require_return(const Model& model, const TorusSetting& setting, const SignatureReturn::Image& image) {
+    constexpr double same = 1e-6; // in the scales of the states
+    for (const std::size_t i : setting.active)
+        if (!(std::abs(image.after[i] - image.motion.starts[0][i]) <= same * setting.scales[index(i)]))
+            throw InputError(fmt::format("state '{}' does not return, but only its distance from other states: tori of "
+                                         "such motions are not followed",
+                                         model.states[i].name),
+                             "write the model in such distances");
 }
 
 } // namespace
@@ -93,12 +84,14 @@ public:
             throw InputError("tori are followed in one parameter, and not along a family", "name one parameter alone");
         settings_.continuation.accuracy = std::max(settings.continuation.accuracy, settings.orbit.accuracy);
         const double at = point.solution.orbit.parameters[settings.parameter.place()];
-        if (is_outside(settings_, at))
+        if (is_beyond_bounds(at))
             throw InputError(fmt::format("the torus point lies at {:.10g}, outside the bounds", at),
                              "widen the bounds of the parameter");
-        set_up(point.solution.orbit);
-        monitors_ = std::make_unique<OrbitMonitors>(system, point.solution.orbit.signature, settings.monitors,
-                                                    settings.orbit.tolerance);
+        // Rotation numbers and growth are those of whole returns, as the period is: a symmetry is not made use of.
+        const Orbit whole = whole_orbit(system, point.solution.orbit);
+        set_up(whole);
+        monitors_ =
+            std::make_unique<OrbitMonitors>(system, whole.signature, settings.monitors, settings.orbit.tolerance);
     }
 
     bool start();
@@ -108,6 +101,14 @@ public:
     const std::string& detail() const { return detail_; }
 
 private:
+    /// Bounds may begin at the torus point, which is known to its accuracy.
+    bool is_beyond_bounds(double at) const {
+        constexpr double accuracy = 1e-8; // share of the range
+        const double range = settings_.least && settings_.greatest ? *settings_.greatest - *settings_.least : 0,
+                     off = accuracy * std::max(range, std::abs(at));
+        return is_outside(settings_, at) && is_outside(settings_, at - off) && is_outside(settings_, at + off);
+    }
+
     bool end(TorusOutcome outcome, std::string detail) {
         outcome_ = outcome;
         detail_ = std::move(detail);
@@ -158,9 +159,11 @@ void TorusBranch::Follower::set_up(const Orbit& orbit) {
     const auto image = setting_.back->follow(orbit.starts[0], parameter, orbit.durations);
     if (!image)
         throw InputError("the orbit cannot be followed: " + setting_.back->problem(), "choose another torus point");
+    require_return(simulation_.model(), setting_, *image);
     const Eigen::VectorXd scales = setting_.scales(setting_.active);
     const TurningPair pair = turning_pair(scales.cwiseInverse().asDiagonal() *
                                           image->derivatives(setting_.active, setting_.active) * scales.asDiagonal());
+    scale_by_amplitude(setting_, *image, parameter, pair);
     problem_ = std::make_shared<TorusProblem>(setting_, std::min(harmonics, resolution_.harmonics));
     origin_.assign(problem_->unknowns(), 0.0);
     direction_ = origin_;

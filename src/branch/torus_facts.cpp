@@ -1,5 +1,6 @@
 #include "branch/torus_facts.hpp"
 
+#include "base/concatenated.hpp"
 #include "base/special_numbers.hpp"
 #include "branch/circle_minimum.hpp"
 #include "orbit/certify.hpp"
@@ -36,6 +37,23 @@ public:
     std::optional<Orbit> motion_from(double turns) const {
         auto image = image_from(turns);
         return image ? std::optional(std::move(image->motion)) : std::nullopt;
+    }
+    /// Returns the motions from equally spaced angles: those at which the equations hold, and as many between as show
+    /// what happens along a return. Few harmonics suffice for the circle itself, but not for that.
+    std::vector<Orbit> motions() const {
+        constexpr std::size_t fewest = 24;
+        const std::size_t terms = problem_->terms(), parts = (fewest + terms - 1) / terms;
+        std::vector<Orbit> result;
+        for (std::size_t j = 0; j < terms * parts; ++j) {
+            if (j % parts == 0) {
+                result.push_back(problem_->images()[j / parts].motion);
+            } else if (auto motion = motion_from(static_cast<double>(j) / static_cast<double>(terms * parts))) {
+                result.push_back(std::move(*motion));
+            } else {
+                return {};
+            }
+        }
+        return result;
     }
 
 private:
@@ -125,24 +143,31 @@ double growth_away(const TorusProblem& problem, std::span<const double> u) {
     return std::exp(sum / static_cast<double>(angles * returns));
 }
 
-/// Checks whether the model would follow the motions from all angles. They are looked at from those at which the
-/// equations hold and, where an event is nearly touched, from the angle at which its function is least.
+/// Checks whether the model would follow the motions from all angles. They are looked at from equally spaced ones and,
+/// where an event is nearly touched, from the angle at which its function is least.
 class MotionCheck {
 public:
-    MotionCheck(const TorusProblem& problem, const TorusAngles& angles, const Simulation& simulation, TorusFacts& facts)
-        : problem_(problem), angles_(angles), simulation_(simulation), facts_(facts) {}
+    MotionCheck(const TorusAngles& angles, const Simulation& simulation, TorusFacts& facts)
+        : angles_(angles), simulation_(simulation), facts_(facts) {}
 
     void check() {
         constexpr double near = 0.2; // of the function's size: other events are not nearly touched
+        const std::vector<Orbit> motions = angles_.motions();
+        if (motions.empty()) {
+            facts_.admissible = false;
+            facts_.reason = "the motion from some angles does not return";
+        }
         std::map<EventOfSegment, std::vector<double>> gaps;
         std::map<EventOfSegment, double> sizes;
-        for (const SignatureReturn::Image& image : problem_.images())
-            for (const auto& [event, gap] : certified(image.motion)) {
-                gaps[event].push_back(gap.value);
-                sizes[event] = std::max(sizes[event], gap.size);
+        for (std::size_t j = 0; j < motions.size() && facts_.admissible; ++j)
+            for (const auto& [event, gap] : certified(motions[j])) {
+                gaps.try_emplace(event, motions.size(), infinity).first->second[j] = gap.value;
+                sizes[event] = std::max({sizes[event], gap.size, std::abs(gap.value)});
             }
         for (const auto& [event, values] : gaps) {
-            if (values.size() < problem_.terms() || *std::ranges::min_element(values) > near * sizes[event])
+            if (!facts_.admissible)
+                return;
+            if (std::abs(*std::ranges::min_element(values)) > near * sizes[event])
                 continue;
             least_around(values, [this, &event = event](double turns) -> std::optional<double> {
                 const auto motion = facts_.admissible ? angles_.motion_from(turns) : std::nullopt;
@@ -150,14 +175,15 @@ public:
                     return std::nullopt;
                 const auto found = certified(*motion);
                 const auto gap = found.find(event);
-                return gap == found.end() ? std::nullopt : std::optional(gap->second.value);
+                return gap == found.end() ? infinity : gap->second.value;
             });
         }
     }
 
 private:
     using EventOfSegment = std::pair<std::size_t, std::size_t>;
-    /// Notes the certificate of a motion. @return the least values of the functions of events along it
+    /// Notes the certificate of a motion. @return the least values of the functions of events along it, ends included:
+    /// where a minimum has moved beyond the end of a return, the motion after it has it
     std::map<EventOfSegment, OrbitMinimum> certified(const Orbit& motion) {
         Shooting shooting(simulation_, motion, {});
         OrbitEvaluation at = shooting.evaluation();
@@ -180,10 +206,42 @@ private:
             if (!added && minimum.value < one->second.value)
                 one->second = minimum;
         }
+        const auto note = [&](const EventOfSegment& event, double time, double value) {
+            const auto [one, added] = least.try_emplace(event);
+            if (added)
+                one->second = {event.first, event.second, time, value, std::abs(value)};
+            one->second.value = std::min(one->second.value, value);
+        };
+        for (const EndValue& end : certificate.end_values)
+            if (kind_of(end.event) != EventKind::section) // may have either sign
+                note({end.segment, end.event}, motion.durations[end.segment], end.value);
+        for (std::size_t s = 0; s < motion.segments(); ++s)
+            note_start(motion, s, note);
         return least;
     }
 
-    const TorusProblem& problem_;
+    EventKind kind_of(std::size_t event) const { return simulation_.model().events[event].kind; }
+
+    /// Notes the barriers at the start of a segment, beyond which a jump may lead; but not that from which it jumps.
+    template <class Note>
+    void note_start(const Orbit& motion, std::size_t segment, const Note& note) const {
+        const System& system = simulation_.system();
+        const System::CompiledMode& mode = system.mode(motion.signature[segment].mode);
+        const std::size_t before = (segment + motion.segments() - 1) % motion.segments();
+        const Transition* const made = transition_of(system.model(), motion.signature[before]);
+        std::vector<double> values;
+        for (std::size_t w = 0; w < mode.watched.size(); ++w) {
+            const std::size_t event = mode.watched[w];
+            const bool is_left =
+                made && (made->event == event || std::ranges::find(made->also, event) != made->also.end());
+            if (kind_of(event) != EventKind::barrier || is_left)
+                continue;
+            if (values.empty())
+                values = mode.events(concatenated(motion.starts[segment], motion.parameters));
+            note({segment, event}, 0, values[w]);
+        }
+    }
+
     const TorusAngles& angles_;
     const Simulation& simulation_;
     TorusFacts& facts_;
@@ -196,7 +254,7 @@ TorusFacts facts_of(const TorusProblem& problem, std::span<const double> u, cons
     facts.tail = problem.tail_of(u);
     facts.approach_speeds.assign(problem.setting().back->first().segments(), infinity);
     const TorusAngles angles(problem, u);
-    MotionCheck(problem, angles, simulation, facts).check();
+    MotionCheck(angles, simulation, facts).check();
     if (!facts.admissible)
         return facts; // nothing else is asked of a torus that the model would not follow
     facts.growth = growth_away(problem, u);
@@ -209,12 +267,12 @@ std::vector<double> extremes_of(const TorusProblem& problem, std::span<const dou
     const auto sign_of = [&](std::size_t m) {
         return monitors.monitors()[m].kind == Monitor::Kind::maximum ? -1.0 : 1.0;
     };
-    for (const SignatureReturn::Image& image : problem.images()) {
-        const std::vector<double> values = monitors(image.motion);
+    const TorusAngles angles(problem, u);
+    for (const Orbit& motion : angles.motions()) {
+        const std::vector<double> values = monitors(motion);
         for (std::size_t m = 0; m < values.size(); ++m)
             samples[m].push_back(sign_of(m) * values[m]);
     }
-    const TorusAngles angles(problem, u);
     std::vector<double> extremes;
     for (std::size_t m = 0; m < samples.size(); ++m)
         extremes.push_back(sign_of(m) * least_around(samples[m], [&](double turns) -> std::optional<double> {

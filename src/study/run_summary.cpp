@@ -1,5 +1,6 @@
 #include "graze/study/run_summary.hpp"
 
+#include "graze/branch/special_point.hpp"
 #include "graze/results/stored_run.hpp"
 #include "graze/study/escape_rates.hpp"
 
@@ -48,12 +49,14 @@ std::vector<std::pair<std::string, std::string>> ends_of(const StoredRun& run) {
     std::vector<std::pair<std::string, std::string>> ends; // parts in the order in which they ended
     if (!run.record.is_followed() && run.record.kind != name_of(RunKind::equilibrium))
         return ends;
-    auto rows = run.rows({.columns = {"part", "detail"}});
+    auto rows = run.rows({.columns = {"part", "detail", "label", "type"}});
     while (rows.next()) {
         std::erase_if(ends, [part = rows.text(0)](const auto& end) { return end.first == part; });
         if (run.record.kind == name_of(RunKind::ladder))
             ends.clear(); // each rung ends where the next begins
-        ends.emplace_back(rows.text(0), rows.text(1));
+        const bool is_resonance = rows.text(3) == short_name(PointType::resonance_1) ||
+                                  rows.text(3) == short_name(PointType::resonance_2); // beyond, a curve does not exist
+        ends.emplace_back(rows.text(0), rows.text(1).empty() && is_resonance ? rows.text(2) : rows.text(1));
     }
     if (!run.record.is_followed()) // a single equilibrium has no end
         std::erase_if(ends, [](const auto& end) { return end.second.empty(); });

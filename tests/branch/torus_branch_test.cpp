@@ -91,6 +91,17 @@ TEST(TorusBranch, NormalFormHasItsClosedForm) {
     EXPECT_EQ(passed, "2/7 1/4 1/5 1/6 ");
 }
 
+TEST(TorusBranch, BoundsMayBeginAtTheTorusPoint) {
+    const Model model = normal_form(0.3, 0.7).model();
+    BranchSettings settings = in_parameter(model, "p", -0.1, 0.2);
+    const SpecialPoint point = torus_point(model, settings);
+    settings.least = point.parameter + 1e-13;
+    TorusBranch branch(System(model), point, settings);
+    ASSERT_FALSE(all_of(branch).empty()) << branch.detail();
+    EXPECT_EQ(branch.outcome(), TorusOutcome::bound);
+    EXPECT_EQ(branch.point().parameter, 0.2);
+}
+
 /// With the other sign of the cubic terms the tori are unstable, and are where the orbit is stable.
 TEST(TorusBranch, UnstableToriAreFollowedAlike) {
     OneMode parts = normal_form(0.21, 0.3);
@@ -125,6 +136,132 @@ TEST(TorusBranch, EndsWhereTheTorusGrazes) {
     ASSERT_FALSE(points.empty());
     EXPECT_TRUE(points.back().facts.admissible);
     EXPECT_NEAR(points.back().parameter, c * c, 1e-7);
+}
+
+/// The same about x = 0.3 cos(theta), y = 0.3 sin(theta), with sections at several phases of the force: where the
+/// section lies at the farthest point, the motions that touch begin or end there.
+TEST(TorusBranch, ExtremesDoNotDependOnTheSection) {
+    constexpr double c = 0.3;
+    for (const double phase : {0.0, 1e-3, 3.0})
+        for (const double wall : {0.5, 0.9}) {
+            const Model model = OneMode{.parameters = "p = -0.2",
+                                        .states = "x = 0.1\ny = 0.05",
+                                        .definitions = "u = 'x - 0.3*cos(theta)'\nv = 'y - 0.3*sin(theta)'",
+                                        .rates = "x = 'p*u - (1.3 + 0.4*(u^2 + v^2))*v - u*(u^2 + v^2) - "
+                                                 "0.3*sin(theta)', y = 'p*v + (1.3 + 0.4*(u^2 + v^2))*u - "
+                                                 "v*(u^2 + v^2) + 0.3*cos(theta)'",
+                                        .clock = "1",
+                                        .stops = {{"wall", fmt::format("{} - x", wall), "y = '-y'", "wall"}},
+                                        .more = at_phase(phase)}
+                                    .model();
+            BranchSettings settings = in_parameter(model, "p", -0.5, 1);
+            const SpecialPoint point = torus_point(model, settings);
+            settings.monitors = {extreme(model, "x", Monitor::Kind::maximum),
+                                 extreme(model, "y", Monitor::Kind::minimum)};
+            TorusBranch branch(System(model), point, settings);
+            const std::vector<TorusPoint> points = all_of(branch);
+            EXPECT_EQ(branch.outcome(), TorusOutcome::unphysical) << branch.detail();
+            ASSERT_GT(points.size(), 5U);
+            EXPECT_NEAR(points.back().parameter, (wall - c) * (wall - c), 1e-8) << phase << ' ' << wall;
+            for (const TorusPoint& one : points) {
+                const double farthest = c + std::sqrt(one.parameter);
+                EXPECT_NEAR(one.monitors[0], farthest, 1e-10) << phase << ' ' << one.parameter;
+                EXPECT_NEAR(one.monitors[1], -farthest, 1e-10) << phase << ' ' << one.parameter;
+            }
+        }
+}
+
+/// A ball that bounces every two units of time, during which (x, y) turns by `turn` about 0. The bounce turns it back,
+/// and puts its distance z from (0.4, 0) to z (1 + p - |z|^2) exp(i beta): circles |z|^2 = p. A wall at the angle
+/// `angle` is first touched by sqrt(p) + 0.4 cos(the least angle between it and those from 0 to `turn`): at the start
+/// or the end of the flight, or within it.
+Model turning_flight(double turn, double angle, double wall) {
+    constexpr double beta = 1.1;
+    return OneMode{
+        .parameters = fmt::format("p = -0.05\nturn = {}\nangle = {}\nwall = {}\nbeta = {}", turn, angle, wall, beta),
+        .states = "h = 0\ns = 1\nx = 0.41\ny = 0.02",
+        .definitions = "u = 'x*cos(turn) + y*sin(turn) - 0.4'\nv = 'y*cos(turn) - x*sin(turn)'\n"
+                       "f = '1 + p - u^2 - v^2'",
+        .rates = "h = 's', s = '-1', x = '-turn/2*y', y = 'turn/2*x'",
+        .stops = {{"floor", "h",
+                   "s = '1'\nx = '0.4 + f*(u*cos(beta) - v*sin(beta))'\ny = 'f*(u*sin(beta) + v*cos(beta))'", "floor"},
+                  {"wall", "wall - x*cos(angle) - y*sin(angle)", "y = '-y'", "wall"}}}
+        .model();
+}
+
+TEST(TorusBranch, GrazesAtTheStartAndTheEndOfFlightsToo) {
+    constexpr double turn = 0.9, wall = 0.6;
+    for (const double angle : {-0.4, 0.0, 0.4, 0.91, 1.4}) {
+        const Model model = turning_flight(turn, angle, wall);
+        const BranchSettings settings = in_parameter(model, "p", -0.1, 0.3);
+        const Branch orbits =
+            follow_branch(System(model), given_orbit(model, "floor", {{0, 1, 0.4, 0}}, {2}), settings);
+        const auto found = of_type(orbits, PointType::torus);
+        ASSERT_EQ(found.size(), 1U) << names(orbits);
+        TorusBranch branch(System(model), found[0], settings);
+        const std::vector<TorusPoint> points = all_of(branch);
+        EXPECT_EQ(branch.outcome(), TorusOutcome::unphysical) << branch.detail();
+        EXPECT_THAT(branch.detail(), HasSubstr("wall"));
+        ASSERT_FALSE(points.empty());
+        const double aside = angle < 0 ? -angle : std::max(angle - turn, 0.0), radius = wall - 0.4 * std::cos(aside);
+        EXPECT_NEAR(points.back().parameter, radius * radius, 1e-7) << angle;
+    }
+}
+
+/// (x, y) turns about a cycle that is its own image after half a period: z' = (p + i (0.3 + 0.1 |z|^2)) z - z |z|^2.
+TEST(TorusBranch, OfASymmetricOrbitIsThatOfItsWholeReturn) {
+    for (const std::string& symmetry :
+         {std::string(), std::string("[symmetries.turned]\nmap = { u = '-u', v = '-v', x = '-x', y = '-y' }")}) {
+        const Model model =
+            OneMode{.parameters = "p = -0.2",
+                    .states = "u = 1\nv = 0.1\nx = 1.1\ny = 0.1",
+                    .definitions = "c = '1 - u^2 - v^2'\na = 'x - u'\nb = 'y - v'\nr = 'a^2 + b^2'",
+                    .rates = "u = '-v + u*c', v = 'u + v*c', x = '-v + u*c + p*a - (0.3 + 0.1*r)*b - a*r', "
+                             "y = 'u + v*c + p*b + (0.3 + 0.1*r)*a - b*r'",
+                    .more = section("start", "v") + symmetry}
+                .model();
+        BranchSettings settings = in_parameter(model, "p", -0.5, 0.6);
+        const SpecialPoint point = torus_point(model, settings);
+        EXPECT_EQ(point.solution.orbit.symmetry.has_value(), !symmetry.empty());
+        settings.monitors = {extreme(model, "x", Monitor::Kind::maximum)};
+        TorusBranch branch(System(model), point, settings);
+        const std::vector<TorusPoint> points = all_of(branch);
+        EXPECT_EQ(branch.outcome(), TorusOutcome::bound) << branch.detail();
+        ASSERT_GT(points.size(), 5U);
+        for (const TorusPoint& one : points) {
+            const double p = one.parameter;
+            EXPECT_NEAR(one.torus.rotation, 0.3 + 0.1 * p, 1e-10) << p << symmetry;
+            EXPECT_NEAR(one.facts.growth, std::exp(-4 * pi * p), 1e-9) << p << symmetry;
+            EXPECT_NEAR(one.motion.period(), 2 * pi, 1e-9);
+            EXPECT_NEAR(one.monitors[0], 1 + std::sqrt(p), 1e-9);
+        }
+    }
+}
+
+/// States that are zero on the orbit have no extent there: their unit is that of the nonlinear terms, whatever it is.
+TEST(TorusBranch, OfAStateThatRestsHaveTheSizeOfTheirNonlinearTerms) {
+    for (const double unit : {1e-6, 1e-3, 1.0, 1e3, 1e6}) {
+        const Model model = OneMode{.parameters = fmt::format("p = -0.1\nunit = {}", unit),
+                                    .states = "x = 0\ny = 0\nq = 0.5",
+                                    .definitions = "r = '(x/unit)^2 + (y/unit)^2'",
+                                    .rates = "x = 'p*x - 0.3*y - (x - 0.7*y)*r', y = '0.3*x + p*y - (y + 0.7*x)*r', "
+                                             "q = 'cos(theta) - q'",
+                                    .clock = "1"}
+                                .model();
+        BranchSettings settings = in_parameter(model, "p", -0.1, 0.2);
+        const SpecialPoint point = torus_point(model, settings);
+        settings.monitors = {extreme(model, "x", Monitor::Kind::maximum)};
+        TorusBranch branch(System(model), point, settings);
+        const std::vector<TorusPoint> points = all_of(branch);
+        ASSERT_EQ(branch.outcome(), TorusOutcome::bound) << unit << branch.detail();
+        EXPECT_LT(points.size(), 60U);
+        for (const TorusPoint& one : points) {
+            const double p = one.parameter;
+            EXPECT_NEAR(one.torus.rotation, 0.3 - 0.7 * p, 1e-10) << unit << ' ' << p;
+            EXPECT_NEAR(one.facts.growth, std::exp(-4 * pi * p), 1e-9) << unit << ' ' << p;
+            EXPECT_NEAR(one.monitors[0], unit * std::sqrt(p), 1e-9 * unit) << unit << ' ' << p;
+        }
+    }
 }
 
 /// The delayed logistic map (x, y) -> (a x (1 - y), x), whose fixed point 1 - 1/a has a torus point at a = 2 with the
@@ -273,6 +410,17 @@ TEST(TorusBranch, RefusesOtherPointsAndNumbers) {
     point.type = PointType::torus;
     point.solution.orbit.parameters[model.independent_parameter("p").place()] = -0.05;
     refused("no complex pair of multipliers on the unit circle");
+}
+
+TEST(TorusBranch, RefusesMotionsOfWhichOnlyDistancesReturn) {
+    const Model model = shipped_with("spring-walker", {});
+    const auto found = orbit_with_signature(System(model), parse_signature(model, "touchdown takeoff"));
+    ASSERT_TRUE(found);
+    SpecialPoint point;
+    point.type = PointType::torus;
+    point.solution = *found;
+    EXPECT_THAT(message_of([&] { TorusBranch(System(model), point, in_parameter(model, "k", 10000, 18000)); }),
+                HasSubstr("only its distance from other states"));
 }
 
 TEST(TorusBranch, AskedBeforeItsStartHasNoTorus) {
