@@ -120,6 +120,7 @@ void Trajectory::stick(std::size_t w, std::size_t index, double remaining, doubl
 
 /// Makes the declared sticking transition, from `before_`.
 void Trajectory::come_to_rest(std::size_t event, std::size_t index, double rate) {
+    index = *transition_to_rest(event, index);
     const Transition& transition = simulation_.model().transitions[index];
     histories_[event] = {};
     if (!transition.chatter) {
