@@ -136,6 +136,8 @@ void ContactChoice::add_consistent(std::vector<Alternative>& to, const Alternati
     for (const auto* further : {&there.force.regular, &there.force.parallel})
         for (const Expression& one : *further)
             require(one, true);
+    for (const Expression& one : there.force.apart)
+        require(-one);
     if (possible)
         to.push_back(std::move(next));
 }

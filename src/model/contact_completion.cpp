@@ -14,6 +14,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace graze {
@@ -43,6 +44,12 @@ public:
     }
 
 private:
+    /// What is known of the contacts under conditions.
+    struct Case {
+        Alternative given{};
+        ContactsKnowledge known{};
+    };
+
     [[noreturn]] void fail(const std::string& path, const std::string& problem, const std::string& remedy) const {
         throw InputError(places_.of(path), problem, remedy);
     }
@@ -219,7 +226,7 @@ private:
         made.when_text = impact.when.empty() ? "" : "impulses of " + (words.empty() ? "none" : words.substr(1));
         made.jump =
             add_jump("impact" + words, "velocities after an impact", modes_.velocity_map(impact.changes, impact.zero));
-        add_next(made, base, impact.after, names);
+        add_next(made, base, {{{}, impact.after}}, names);
         add_rest(made, base, variant, closing, impact);
         model_.transitions.push_back(std::move(made));
     }
@@ -302,20 +309,42 @@ private:
     // --- ends of contact, rest and slip
 
     /// Returns what is known of the contacts of a variant whose motion goes on.
-    static ContactsKnowledge knowledge_of(const ContactStates& states) {
+    ContactsKnowledge knowledge_of(std::size_t base, const ContactStates& states) {
         ContactsKnowledge known(states.size());
         for (std::size_t i = 0; i < states.size(); ++i)
-            if (states[i] == ContactState::stick)
+            if (states[i] == ContactState::stick || rests_with_others(base, states, i))
                 known[i] = {Normal::touching, std::nullopt, true};
             else if (states[i] != ContactState::open)
                 known[i] = {Normal::touching, states[i], false};
         return known;
     }
 
+    /// Returns whether a contact that counts as slipping has no slip, because others are closed and stick: its sign is
+    /// that of round-off.
+    bool rests_with_others(std::size_t base, const ContactStates& states, std::size_t contact) {
+        if (!is_slip(states[contact]) || std::ranges::count(states, ContactState::stick) == 0)
+            return false;
+        const auto [known, added] = rests_.emplace(std::tuple(base, states, contact), false);
+        if (!added)
+            return known->second;
+        const ContactMechanics& mechanics = modes_.mechanics(base);
+        std::vector<Expression> zero;
+        for (std::size_t i = 0; i < states.size(); ++i) {
+            if (states[i] == ContactState::open)
+                continue;
+            zero.push_back(mechanics.gap(i));
+            zero.push_back(mechanics.normal(i).velocity);
+            if (states[i] == ContactState::stick)
+                zero.push_back(mechanics.slip(i).velocity);
+        }
+        const std::vector<Expression> slip{mechanics.slip(contact).velocity};
+        return known->second = Vanishing(model_, RandomInputs(model_), zero).of(slip).front();
+    }
+
     void add_ends(std::size_t base, const ContactVariant& variant, std::size_t contact) {
         const std::string& name = contact_name(contact);
         const Expression& force = variant.force.normal[contact];
-        ContactsKnowledge known = knowledge_of(variant.states);
+        ContactsKnowledge known = knowledge_of(base, variant.states);
         known[contact] = {};
         const std::size_t opens = add_end(base, variant, name + "-opens",
                                           fmt::format("the force in '{}' falls to zero", name), force, 0, known);
@@ -326,7 +355,7 @@ private:
             const Expression& limit = variant.force.limit[contact];
             for (const ContactState direction : {ContactState::forward, ContactState::backward}) {
                 const bool forward = direction == ContactState::forward;
-                known = knowledge_of(variant.states);
+                known = knowledge_of(base, variant.states);
                 for (std::size_t i = 0; i < known.size(); ++i)
                     if (carried_by(base, variant.states, i) == contact)
                         known[i] = {Normal::touching, direction, false};
@@ -336,14 +365,35 @@ private:
                         jump_to_rest(base, contact), known);
             }
         }
-        if (!is_slip(state))
+        if (!is_slip(state) || rests_with_others(base, variant.states, contact))
             return;
+        known = knowledge_of(base, variant.states);
         known[contact] = {Normal::touching, std::nullopt, true};
-        for (std::size_t i = 0; i < known.size(); ++i)
-            if (i != contact && is_slip(variant.states[i]) && stick_together(base, variant.states, contact, i))
-                known[i] = {Normal::touching, std::nullopt, true};
+        std::vector<Case> cases;
+        add_stops(cases, {{}, known}, base, variant, contact, 0);
         add_transition(base, variant, modes_.stop_event(contact, state), name + "-stops", jump_to_rest(base, contact),
-                       known);
+                       cases);
+    }
+
+    /// Others that slip in the same direction come to rest at once, unless their slips have different zeros.
+    /// @param other the first of those that are not known yet
+    void add_stops(std::vector<Case>& to, const Case& given, std::size_t base, const ContactVariant& variant,
+                   std::size_t contact, std::size_t other) {
+        while (other < variant.states.size() && (other == contact || !is_slip(variant.states[other]) ||
+                                                 !stick_together(base, variant.states, contact, other)))
+            ++other;
+        if (other == variant.states.size())
+            return to.push_back(given);
+        Case stops = given;
+        if (const Expression apart = modes_.mechanics(base).apart(contact, other); !apart.is_number(0)) {
+            Case slips = given;
+            if (add_condition(slips.given.when, apart, true))
+                add_stops(to, slips, base, variant, contact, other + 1);
+            if (!add_condition(stops.given.when, -apart, false))
+                return;
+        }
+        stops.known[other] = {Normal::touching, std::nullopt, true};
+        add_stops(to, stops, base, variant, contact, other + 1);
     }
 
     /// Returns the jump that removes the round-off of a slip that is zero.
@@ -373,13 +423,14 @@ private:
         const std::size_t event = derived_event(
             model_, places_, "contacts." + model_.contacts.front().name,
             {.name = fmt::format("{}-{}", mode_name(variant.mode), what), .text = text, .function = function});
-        add_transition(base, variant, event, what, jump, known);
+        add_transition(base, variant, event, what, jump, {{{}, known}});
         return event;
     }
 
     /// Says what follows a transition, and why the motion ends where nothing does.
-    void add_next(Transition& made, std::size_t base, const ContactsKnowledge& known, const std::string& what) {
-        choice_.add(made.next, {}, base, known);
+    void add_next(Transition& made, std::size_t base, const std::vector<Case>& cases, const std::string& what) {
+        for (const Case& one : cases)
+            choice_.add(made.next, one.given, base, one.known);
         if (made.next.empty())
             made.next.push_back(never());
         made.otherwise = no_solution(what);
@@ -387,7 +438,7 @@ private:
     }
 
     void add_transition(std::size_t base, const ContactVariant& variant, std::size_t event, const std::string& what,
-                        std::size_t jump, const ContactsKnowledge& known) {
+                        std::size_t jump, const std::vector<Case>& cases) {
         model_.modes[variant.mode].watched.push_back(event);
         Transition made{.label = unused_label(fmt::format("{}:{}", mode_name(variant.mode), what)),
                         .mode = variant.mode,
@@ -396,7 +447,7 @@ private:
                         .derived = true};
         if (written_.contains({made.mode, made.event}))
             return;
-        add_next(made, base, known, what);
+        add_next(made, base, cases, what);
         model_.transitions.push_back(std::move(made));
     }
 
@@ -477,7 +528,7 @@ private:
                     made.next.push_back(alternative);
                     continue;
                 }
-                ContactsKnowledge known = knowledge_of(variant.states);
+                ContactsKnowledge known = knowledge_of(base, variant.states);
                 for (std::size_t i = 0; i < known.size(); ++i)
                     if (!keeps(given.jump, base, i))
                         known[i] = {};
@@ -548,6 +599,7 @@ private:
     ContactImpacts impacts_;
     std::map<std::size_t, std::vector<std::size_t>> watched_; ///< of each written mode, by the user
     std::set<std::pair<std::size_t, std::size_t>> written_;   ///< mode and event of the user's transitions
+    std::map<std::tuple<std::size_t, ContactStates, std::size_t>, bool> rests_; ///< see rests_with_others
     std::set<std::string> labels_;
     std::size_t own_ = 0; ///< number of the user's transitions
 };

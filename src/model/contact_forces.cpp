@@ -226,8 +226,11 @@ ContactForces ContactMechanics::solve(const ContactStates& states, const std::ve
         if (states[i] == ContactState::stick)
             result.limit[carried_by[i]] = result.limit[carried_by[i]] + friction_[i] * result.normal[i];
     for (std::size_t i = 0; i < states.size(); ++i)
-        if (carried_by[i] != i)
+        if (carried_by[i] != i) {
             result.parallel.push_back(same_direction(*slip_[i], *slip_[carried_by[i]]));
+            if (const Expression apart = this->apart(i, carried_by[i]); !apart.is_number(0))
+                result.apart.push_back(apart);
+        }
     return result;
 }
 
@@ -238,6 +241,23 @@ Expression ContactMechanics::same_direction(const ContactDirection& one, const C
     for (std::size_t k = 0; k < symbols_.size(); ++k)
         difference = difference + (one.slopes[k] - other.slopes[k]) * (one.response[k] - other.response[k]);
     return along(one, one.response) * same - difference;
+}
+
+/// Returns the part of a slip that no velocity of the model makes, such as the speed of a belt.
+Expression ContactMechanics::without_velocities(const Expression& slip) const {
+    std::vector<Replacement> replacements;
+    for (const Expression& symbol : symbols_)
+        replacements.emplace_back(symbol, model_.number(0));
+    return substitute(slip, replacements);
+}
+
+Expression ContactMechanics::apart(std::size_t one, std::size_t other) const {
+    constexpr double same = 1e-24; // of the square of the difference
+    const Expression first = without_velocities(slip_[one]->velocity),
+                     second = without_velocities(slip_[other]->velocity), difference = first - second;
+    if (first == second || difference.is_number(0))
+        return model_.number(0);
+    return difference * difference - same * (first * first + second * second);
 }
 
 ContactForces ContactMechanics::forces(const ContactStates& states) const {
@@ -267,6 +287,10 @@ std::optional<std::vector<std::size_t>> ContactMechanics::carriers(const Contact
                 return std::nullopt;
             held.pop_back();
             result[i] = sticking.front();
+            const Expression apart = this->apart(i, result[i]);
+            for (const Expression& state : model_.state_symbols())
+                if (contains_symbol(apart, state))
+                    return std::nullopt;
         } else {
             sticking.push_back(i);
         }

@@ -50,6 +50,8 @@ struct ContactForces {
     std::vector<Expression> limit{};
     /// Must be positive if contacts stick together in one direction: the difference of their directions is round-off.
     std::vector<Expression> parallel{};
+    /// Must not be positive if contacts stick together: their slips would have different zeros.
+    std::vector<Expression> apart{};
 };
 
 /// The mechanics of contacts in one written mode: directions, inertia, forces and impulses as solutions of linear
@@ -85,14 +87,18 @@ public:
     /// friction of all of them is then one force, if their directions are the same; its share in each is not
     /// determined.
     /// @return for each contact: the one that carries its friction, by default itself. None if directions depend on
-    /// each other in another way
+    /// each other in another way, or if their slips differ by something that changes with the states
     std::optional<std::vector<std::size_t>> carriers(const ContactStates& states) const;
+    /// Slips of one direction may have different zeros, as on two belts.
+    /// @return what is positive where they have, but for round-off; the number 0 if they are the same everywhere
+    Expression apart(std::size_t one, std::size_t other) const;
 
 private:
     void require_linear(const ContactDirection& direction, const std::string& path, const std::string& what) const;
     ContactDirection direction_of(const Expression& velocity, const std::string& path, const std::string& what) const;
     Expression same_direction(const ContactDirection& one, const ContactDirection& other) const;
     void require_positive_masses() const;
+    Expression without_velocities(const Expression& slip) const;
     void note_products();
 
     Model& model_;

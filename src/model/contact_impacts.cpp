@@ -97,6 +97,8 @@ bool ContactImpacts::solve_at_once(const Meeting& meeting, ContactImpact& impact
     }
     for (const Expression& one : impulses.parallel)
         require(one);
+    for (const Expression& one : impulses.apart)
+        require(-one);
     meeting.remove_vanishing(impact.when);
     return possible;
 }

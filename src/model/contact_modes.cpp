@@ -224,7 +224,7 @@ ContactVariant ContactModes::made(std::size_t base, const ContactStates& states)
         mode.rates = motion_.tangent(std::move(field));
     }
     for (auto* forces : {&result.force.normal, &result.force.tangential, &result.force.regular, &result.force.limit,
-                         &result.force.parallel})
+                         &result.force.parallel, &result.force.apart})
         *forces = motion_.on_surface(*forces);
     return result;
 }

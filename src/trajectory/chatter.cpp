@@ -208,6 +208,7 @@ void Trajectory::find_displacements(double share) {
 
 /// Makes the declared sticking transition, from `before_`.
 void Trajectory::come_to_rest(std::size_t event, std::size_t index, double rate) {
+    index = *transition_to_rest(event, index);
     const Transition& transition = simulation_.model().transitions[index];
     histories_[event] = {};
     if (!transition.chatter) {

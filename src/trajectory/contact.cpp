@@ -66,6 +66,11 @@ void Trajectory::make_contact(std::size_t w, double s) {
     contact.rate_before = rate;
     pending_ = contact;
     if (!chosen) {
+        // A contact that does not approach closes without an impact.
+        if (const auto rest = s == 0 && rate >= 0 ? transition_to_rest(event, {}) : std::nullopt) {
+            pending_.reset();
+            return come_to_rest(event, *rest, rate);
+        }
         after_ = before_;
         pending_->transition = transition;
         pending_->time = time_;

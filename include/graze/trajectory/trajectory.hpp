@@ -234,6 +234,9 @@ private:
     bool is_at_surface(std::size_t event, double step);
     std::optional<std::size_t> transition_at_corner(std::size_t turn) const;
     void carry_tangents_to_rest(std::size_t watched, double remaining, double per_impulse);
+    // Contacts that come to rest (resting_contact.cpp)
+    double change_by_rest(const Transition& transition);
+    std::optional<std::size_t> transition_to_rest(std::size_t event, std::optional<std::size_t> known);
 
     std::span<const double> series(std::size_t index);
     std::span<const double> event_series(std::size_t watched) { return series(states_ + watched); }
