@@ -337,8 +337,8 @@ OrbitDirection BranchState::across_cuts(const Orbit& orbit, OrbitDirection direc
 bool BranchState::distances_need_renewal() const {
     const HomoclinicEnds* const ends = problem_->equations().homoclinic_ends();
     constexpr double pause = 10; // steps of the greatest length
-    const bool tried = arclength(continuation_->point().arclength) <
-                       not_renewed_at_ + pause * settings_.continuation.largest_step;
+    const bool tried =
+        arclength(continuation_->point().arclength) < not_renewed_at_ + pause * settings_.continuation.largest_step;
     return ends && !tried && graze::distances_need_renewal(*ends);
 }
 

@@ -40,8 +40,7 @@ std::string in_words(const System& system, const SpecialPoint& point, const Homo
     const std::vector<double> periods = system.periods()(point.solution.orbit.parameters);
     std::vector<std::string> place;
     for (std::size_t i = 0; i < found.saddle.size(); ++i)
-        place.push_back(
-            fmt::format("{} = {:.6g}", model.states[i].name, within_period(found.saddle[i], periods[i])));
+        place.push_back(fmt::format("{} = {:.6g}", model.states[i].name, within_period(found.saddle[i], periods[i])));
     const auto& eigenvalues = point.solution.eigenvalues;
     const auto growing = std::ranges::find_if(eigenvalues, [](auto one) { return one.real() < 0; });
     return fmt::format("{} +- {:.1e}; saddle {}; {}; saddle quantity {:.6g}",
