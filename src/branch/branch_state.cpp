@@ -1,7 +1,6 @@
 #include "branch/branch_state.hpp"
 
 #include "base/concatenated.hpp"
-#include "base/special_numbers.hpp"
 #include "branch/bounds.hpp"
 #include "branch/branch_point_problem.hpp"
 #include "branch/homoclinic_end.hpp"
@@ -197,7 +196,7 @@ std::vector<double> BranchState::rates_at(const Orbit& orbit, std::size_t segmen
     return system().mode(orbit.signature[segment].mode).rates(concatenated(orbit.starts[segment], orbit.parameters));
 }
 
-std::optional<DescribedPoint> BranchState::describe(const ContinuationPoint& at, bool degeneracies) {
+std::optional<DescribedPoint> BranchState::describe(const ContinuationPoint& at) {
     OrbitEquations& equations = problem_->equations();
     if (!problem_->evaluate(at.u))
         return std::nullopt;
@@ -216,17 +215,12 @@ std::optional<DescribedPoint> BranchState::describe(const ContinuationPoint& at,
         measure_multipliers(settings_.monitors, result.solution.multipliers, result.monitors);
     result.arclength = arclength(at.arclength);
     result.stable = is_stable(result.solution);
-    if (settings_.kept && !keeps_branch_point()) {
-        if (degeneracies)
-            degeneracies_ =
-                held_[settings_.fixed_monitors() + kept_conditions() - 1]->degeneracies(equations, evaluation);
-        else
-            for (Degeneracy& one : degeneracies_)
-                one.value = not_a_number;
-    }
+    std::vector<Degeneracy> degeneracies;
+    if (settings_.kept && !keeps_branch_point())
+        degeneracies = held_[settings_.fixed_monitors() + kept_conditions() - 1]->degeneracies(equations, evaluation);
     const auto rise = rise_of_family(true);
     std::vector<BranchTest> tests = branch_tests({equations, evaluation, result.solution, at.tangent, at.determinant,
-                                                  result.monitors, settings_, degeneracies_, rise ? &*rise : nullptr});
+                                                  result.monitors, settings_, degeneracies, rise ? &*rise : nullptr});
     return DescribedPoint{std::move(result), std::move(tests)};
 }
 

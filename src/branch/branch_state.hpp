@@ -58,9 +58,7 @@ public:
     std::vector<double> rates_at(const Orbit& orbit, std::size_t segment) const;
 
     /// Describes a point of the branch; empty where its equations are not defined.
-    /// @param degeneracies whether those of the points along a curve are needed, which cost the most; their tests are
-    /// not numbers otherwise
-    std::optional<DescribedPoint> describe(const ContinuationPoint& at, bool degeneracies = true);
+    std::optional<DescribedPoint> describe(const ContinuationPoint& at);
     /// The same at a fraction of the last step; empty also where Newton's method does not converge.
     std::optional<DescribedPoint> describe_between(double fraction);
     /// Returns the change of an orbit of the branch at a hundredth of the tolerance, relative to the scale of each
@@ -121,7 +119,6 @@ private:
     std::unique_ptr<Continuation> continuation_;
     /// Along families: changes of the coordinate, and of what is conserved; made when first needed.
     std::array<std::optional<OrbitQuantity>, 2> rises_;
-    std::vector<Degeneracy> degeneracies_; ///< at the point that was described last with them
     double arclength_ = 0, growth_ = 1;
     /// Arclength at which a homoclinic orbit could not begin and end at other distances last.
     double not_renewed_at_ = -std::numeric_limits<double>::infinity();

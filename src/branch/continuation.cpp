@@ -403,23 +403,20 @@ bool Continuation::closes() {
 }
 
 bool Continuation::between(double fraction, ContinuationPoint& result) {
-    return between(previous_, point_, fraction, result);
-}
-
-bool Continuation::between(const ContinuationPoint& low, const ContinuationPoint& high, double fraction,
-                           ContinuationPoint& result) {
     if (steps_ == 0)
         throw OrderError("there are no two points to look between before the first step");
     require_finite(fraction, "the fraction");
-    const double length = point_.arclength - previous_.arclength, part = high.arclength - low.arclength;
+    const double length = point_.arclength - previous_.arclength;
     const std::vector<double> chord = difference(point_.u, previous_.u), row = problem_->row_of(chord);
-    result.arclength = previous_.arclength + fraction * length;
     // Predict by the cubic, shifted into the hyperplane.
-    result.u = on_cubic(low, high, part, (result.arclength - low.arclength) / part);
+    result.u = on_cubic(previous_, point_, length, fraction);
     const std::vector<double> offset =
         numbers_of(vector_of(previous_.u) + fraction * vector_of(chord) - vector_of(result.u));
     entries_of(result.u) += problem_->product(offset, chord) / problem_->product(chord, chord) * vector_of(chord);
-    return correct(result.u, row, length, result.iterations) && find_tangent(result, row);
+    if (!correct(result.u, row, length, result.iterations) || !find_tangent(result, row))
+        return false;
+    result.arclength = previous_.arclength + fraction * length;
+    return true;
 }
 
 } // namespace graze

@@ -4,7 +4,6 @@
 #include "branch/boundary_equilibrium.hpp"
 #include "branch/bounds.hpp"
 #include "branch/branch_state.hpp"
-#include "branch/test_zero_search.hpp"
 
 #include <fmt/format.h>
 
@@ -80,22 +79,31 @@ std::optional<DescribedEquilibrium> EquilibriumLocator::describe_between(double 
     return continuation_->between(fraction, at) ? path_->describe(at) : std::nullopt;
 }
 
+/// The zero of a test by the secant method kept within a bracket (Illinois variant of regula falsi).
 std::optional<DescribedEquilibrium> EquilibriumLocator::zero_of(std::size_t test, TestValue low, TestValue high) {
     constexpr int most = 80;
     std::optional<DescribedEquilibrium> there;
-    TestZeroSearch search(low, high, located_within);
-    for (int i = 0; i < most; ++i) {
-        const std::optional<double> fraction = search.next();
-        if (!fraction)
-            break;
-        auto next = describe_between(*fraction);
+    int side = 0;
+    for (int i = 0; i < most && high.fraction - low.fraction > located_within; ++i) {
+        double fraction = low.fraction - low.value * (high.fraction - low.fraction) / (high.value - low.value);
+        if (!(fraction > low.fraction && fraction < high.fraction) || i % 8 == 7)
+            fraction = 0.5 * (low.fraction + high.fraction);
+        auto next = describe_between(fraction);
         if (!next)
             return std::nullopt;
         there = std::move(next);
         const double value = there->tests[test].value;
-        if (!std::isfinite(value))
+        if (value == 0 || !std::isfinite(value))
             break;
-        search.add(value);
+        if ((value < 0) == (low.value < 0)) {
+            low = {fraction, value};
+            high.value *= side == -1 ? 0.5 : 1;
+            side = -1;
+        } else {
+            high = {fraction, value};
+            low.value *= side == 1 ? 0.5 : 1;
+            side = 1;
+        }
     }
     return there;
 }

@@ -17,7 +17,7 @@ template <PointType Type>
 void test_degeneracy(const TestedPoint& point, std::vector<BranchTest>& tests) {
     for (const Degeneracy& one : point.degeneracies)
         if (one.type == Type)
-            tests.push_back({.type = Type, .value = one.value, .noise = one.noise, .of_curve = true});
+            tests.push_back({.type = Type, .value = one.value, .noise = one.noise});
 }
 
 } // namespace graze

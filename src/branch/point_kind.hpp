@@ -60,7 +60,6 @@ struct BranchTest {
     /// For extremum: index of the varying parameter; empty: the period.
     std::optional<std::size_t> parameter = std::nullopt;
     bool singular = false; ///< the equations are singular at the zero
-    bool of_curve = false; ///< a degeneracy of the points along a curve
     bool appears = false;  ///< the value may become undefined while negative; it then counts as a zero within the step
 };
 

@@ -5,7 +5,6 @@
 #include "branch/missed_points.hpp"
 #include "branch/point_kind.hpp"
 #include "branch/point_rules.hpp"
-#include "branch/test_zero_search.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -204,10 +203,9 @@ std::vector<std::pair<TestValue, TestValue>> PointLocator::brackets_of(std::size
         return {};
     if (low.value * high.value < 0 || appeared || vanished || (high.value == 0 && low.value != 0))
         return {{low, high}};
-    const std::optional<TestValue> older = older_value(test);
-    if (!older || !(low.value * high.value > 0))
+    if (older_.size() != here_->tests.size() || !(low.value * high.value > 0))
         return {};
-    const auto dip = possible_dip(*older, low, high);
+    const auto dip = possible_dip({state_->last_step().fraction(older_arclength_), older_[test].value}, low, high);
     if (!dip)
         return {};
     const auto value_at = [&](double fraction) {
@@ -238,25 +236,22 @@ std::optional<SpecialPoint> PointLocator::locate(std::size_t test, const TestVal
     return special;
 }
 
-/// Returns the zero of a test within a part of the last step, where its value is confirmed.
-/// @param complete set to false where the equations have no solution in between
+/// The zero of a test within the last step, by the secant method kept within a bracket (M. Dowell and P. Jarratt's
+/// Illinois variant of regula falsi, 1971). An undefined value, as where a minimum does not exist yet, counts as
+/// positive but of unknown size.
 std::optional<SpecialPoint> PointLocator::locate_zero(std::size_t test, const TestValue& begin, const TestValue& end,
                                                       bool& complete) {
-    Continuation& continuation = state_->continuation();
-    const double size = std::fmax(std::abs(begin.value), std::abs(end.value));
-    TestZeroSearch search(begin, end, located_within, older_value(test));
-    ContinuationPoint low = continuation.previous(), high = continuation.point(), at;
-    std::optional<DescribedPoint> there; // where the search was last
+    double low = begin.fraction, low_value = begin.value, high = end.fraction, high_value = end.value;
+    double fraction = 0;
+    const double size = std::fmax(std::abs(low_value), std::abs(high_value));
+    std::optional<DescribedPoint> there; // at the last fraction
     std::optional<BranchTest> last;      // last test with a defined value
-    for (int i = 0; i < most_locating_steps; ++i) {
-        const std::optional<double> fraction = search.next();
-        if (!fraction)
-            break;
-        if (!continuation.between(low, high, *fraction, at) && !continuation.between(*fraction, at)) {
-            complete = false;
-            break;
-        }
-        auto next = state_->describe(at, here_->tests[test].of_curve);
+    int side = 0;
+    for (int i = 0; i < most_locating_steps && high - low > located_within; ++i) {
+        fraction = low - low_value * (high - low) / (high_value - low_value); // NaN if one value is NaN
+        if (!(fraction > low && fraction < high) || i % 8 == 7)
+            fraction = 0.5 * (low + high);
+        auto next = state_->describe_between(fraction);
         if (!next) {
             complete = false;
             break;
@@ -265,21 +260,25 @@ std::optional<SpecialPoint> PointLocator::locate_zero(std::size_t test, const Te
         const double value = there->tests[test].value;
         if (std::isfinite(value))
             last = there->tests[test];
-        search.add(value);
-        (search.low().fraction == *fraction ? low : high) = at;
+        if (value == 0)
+            break;
+        if ((value < 0) == (low_value < 0)) {
+            low = fraction;
+            low_value = value;
+            high_value *= side == -1 ? 0.5 : 1;
+            side = -1;
+        } else {
+            high = fraction;
+            high_value = value;
+            low_value *= side == 1 ? 0.5 : 1;
+            side = 1;
+        }
     }
     if (!there || (last && is_jump(*last)))
         return std::nullopt;
     if (last && std::isnan(there->tests[test].value)) // use the last defined time
         there->tests[test].time = last->time;
     return special_at(there->point, there->tests[test], size);
-}
-
-/// Returns the value of a test before the last step; empty where it is not known.
-std::optional<TestValue> PointLocator::older_value(std::size_t test) const {
-    if (older_.size() != here_->tests.size())
-        return std::nullopt;
-    return TestValue{state_->last_step().fraction(older_arclength_), older_[test].value};
 }
 
 /// Locates where a curve within the last step meets a curve of simpler orbits, as curves of folds of doubled orbits do

@@ -29,7 +29,6 @@ public:
 private:
     std::vector<std::pair<TestValue, TestValue>> brackets_of(std::size_t test, double before);
     std::optional<SpecialPoint> locate(std::size_t test, const TestValue& low, const TestValue& high);
-    std::optional<TestValue> older_value(std::size_t test) const;
     std::optional<SpecialPoint> locate_zero(std::size_t test, const TestValue& begin, const TestValue& end,
                                             bool& complete);
     std::optional<SpecialPoint> locate_by_crossing(std::size_t test, const TestValue& low, const TestValue& high);

@@ -136,10 +136,6 @@ public:
     /// Computes the solution between the last two points where the branch crosses the hyperplane at a fraction of the
     /// step. The problem stays evaluated there. @return false when Newton's method does not converge
     bool between(double fraction, ContinuationPoint& result);
-    /// The same from two solutions within the last step, between which it lies: the nearer they are, the less is to be
-    /// corrected.
-    bool between(const ContinuationPoint& low, const ContinuationPoint& high, double fraction,
-                 ContinuationPoint& result);
 
 private:
     ContinuationPoint point_at(std::span<const double> u) const;
