@@ -47,7 +47,7 @@ steps = 100000
 step = { largest = 1e-6 }
 [runs.long]
 kind = "sweep"
-vary = { omega = { from = 2.7, to = 2.9, points = 60 }, sigma = { from = 1.2, to = 1.3, points = 80 } }
+vary = { omega = { from = 2.7, to = 2.9, points = 160 }, sigma = { from = 1.2, to = 1.3, points = 80 } }
 direction = "both"
 TOML
 runs=(sweep basin orbit branch)
