@@ -74,7 +74,7 @@ bool Trajectory::complete_chatter(std::size_t w, double step) {
     // takes 2u/a (1 + 2q/3), returns with the speed u (1 - 2q/3) and leaves the deceleration a (1 - 2q).
     const double lengthening = -c[3] / c[2] * steady;
     const double remaining = history.interrupted ? steady : steady * (1 + lengthening);
-    const double allowed = std::max(4 * epsilon, 0.01 * simulation_.options().tolerance);
+    const double allowed = share_of_last_flights(simulation_.options().tolerance);
     // Where other events come in between, the present deceleration may not be what brings the next contact: of two
     // balls that fall it is round-off.
     const double height = std::max(deceleration * remaining, history.interrupted ? speed : 0.0) * remaining;
@@ -116,7 +116,7 @@ bool Trajectory::another_event_within(std::size_t w, double time) {
     };
     const std::size_t n = contacts != nullptr ? contacts->events.size() : 0, own_place = n > 0 ? place_of(w) : 0;
     if (own_place < n) {
-        contact_values_.resize(n * (n + 4 + contacts->velocities.size()));
+        contact_values_.resize(contacts->values.outputs());
         std::copy(state_.begin(), state_.end(), inputs_.begin());
         contacts->values.evaluate(inputs_, contact_values_, work_);
     }
@@ -127,7 +127,7 @@ bool Trajectory::another_event_within(std::size_t w, double time) {
         if (other == w)
             continue;
         if (place >= n) {
-            if (c[0] > 0 && c[0] + time * c[1] < 0)
+            if (falls_within(c, time))
                 return true;
             continue;
         }

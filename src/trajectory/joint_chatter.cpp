@@ -2,7 +2,6 @@
 
 #include "graze/trajectory/trajectory.hpp"
 
-#include "base/special_numbers.hpp"
 #include "trajectory/joint_rest.hpp"
 #include "trajectory/series.hpp"
 #include "trajectory/tangents.hpp"
@@ -76,7 +75,7 @@ bool Trajectory::complete_joint_chatter(double step, bool standing_still) {
     }
     if (open.empty() || members.size() < 2)
         return false;
-    contact_values_.resize(n * (n + 4 + contacts.velocities.size()));
+    contact_values_.resize(contacts.values.outputs());
     contacts.values.evaluate(inputs_, contact_values_, work_);
     NearbyContacts together = nearby(contact_values_, n, members);
     for (std::size_t k = 0; k < members.size(); ++k) {
@@ -107,11 +106,11 @@ bool Trajectory::complete_joint_chatter(double step, bool standing_still) {
             return false;
     for (std::size_t w = 0; w < compiled_mode_->watched.size(); ++w) {
         const auto c = event_series(w);
-        if (std::ranges::find(contacts.events, compiled_mode_->watched[w]) == contacts.events.end() && c[0] > 0 &&
-            c[0] + rest.duration * c[1] < 0)
+        if (std::ranges::find(contacts.events, compiled_mode_->watched[w]) == contacts.events.end() &&
+            falls_within(c, rest.duration))
             return false;
     }
-    if (!is_steady(rest.duration, std::max(4 * epsilon, 0.01 * simulation_.options().tolerance) * step))
+    if (!is_steady(rest.duration, share_of_last_flights(simulation_.options().tolerance) * step))
         return false;
     move_to_rest(members, rest);
     rest_together(events);
@@ -123,7 +122,7 @@ bool Trajectory::complete_joint_chatter(double step, bool standing_still) {
 bool Trajectory::is_nearby(std::size_t w, double step, bool standing_still) {
     const auto c = event_series(w);
     sum_term_sizes(w);
-    const double allowed = std::max(4 * epsilon, 0.01 * simulation_.options().tolerance);
+    const double allowed = share_of_last_flights(simulation_.options().tolerance);
     const double size = std::min(series_size(c, step), event_sizes_[compiled_mode_->watched[w]].largest);
     const double low = std::max(allowed * size, 16 * roundoff * terms_[0]);
     const double deceleration = -2 * c[2];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -35,6 +36,17 @@ inline double size_beyond_start(std::span<const double> c, double h) {
     for (std::size_t k = c.size(); k-- > 1;)
         rest = (rest + std::abs(c[k])) * h;
     return rest;
+}
+
+/// Returns whether a function that is positive now is negative after a time, to first order.
+inline bool falls_within(std::span<const double> c, double time) {
+    return c[0] > 0 && c[0] + time * c[1] < 0;
+}
+
+/// Returns the share of a function's size below which flights between contacts that accumulate are not followed: what
+/// they would change lies far below the tolerance.
+inline double share_of_last_flights(double tolerance) {
+    return std::max(4 * std::numeric_limits<double>::epsilon(), 0.01 * tolerance);
 }
 
 } // namespace graze

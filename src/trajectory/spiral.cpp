@@ -3,7 +3,6 @@
 
 #include "graze/trajectory/trajectory.hpp"
 
-#include "base/special_numbers.hpp"
 #include "trajectory/series.hpp"
 #include "trajectory/tangents.hpp"
 
@@ -21,15 +20,20 @@ namespace {
 /// A turn has at most this many crossings; this many turns, and the crossing before, tell whether they become shorter.
 constexpr std::size_t longest_turn = 8, turns_told = 3;
 
-/// Returns whether passages cross the surfaces of slides, at least two of them, from one side to the other.
+/// Returns whether a passage crosses the surface of a slide from one side to the other.
+template <class Crossing>
+bool crosses(const Crossing& one, const Slide& slide) {
+    return (one.mode_before == slide.left && one.mode_after == slide.right) ||
+           (one.mode_before == slide.right && one.mode_after == slide.left);
+}
+
+/// Returns whether passages cross the surfaces of slides, at least two of them.
 template <class Crossing>
 bool crosses_slides(const Model& model, std::span<const Crossing> turn) {
     std::set<std::size_t> surfaces;
     for (const Crossing& one : turn) {
-        const auto crossed = std::ranges::find_if(model.slides, [&](const Slide& slide) {
-            return (one.mode_before == slide.left && one.mode_after == slide.right) ||
-                   (one.mode_before == slide.right && one.mode_after == slide.left);
-        });
+        const auto crossed =
+            std::ranges::find_if(model.slides, [&](const Slide& slide) { return crosses(one, slide); });
         if (crossed == model.slides.end())
             return false;
         surfaces.insert(crossed->surface);
@@ -74,7 +78,7 @@ bool Trajectory::is_at_surface(std::size_t event, double step) {
         terms += std::abs(values_[1 + i] * state_[i]);
         way += std::abs(values_[1 + i] * series_[i][1]) * step;
     }
-    const double allowed = std::max(4 * epsilon, 0.01 * simulation_.options().tolerance);
+    const double allowed = share_of_last_flights(simulation_.options().tolerance);
     return std::abs(values_[0]) <= std::max(allowed * way, 16 * roundoff * terms);
 }
 
@@ -109,8 +113,7 @@ bool Trajectory::complete_spiral(double step) {
     if (remaining > (end_time_ - time_) - time_low_)
         return false;
     for (std::size_t w = 0; w < compiled_mode_->watched.size(); ++w)
-        if (const auto c = event_series(w);
-            !in_turn(compiled_mode_->watched[w]) && c[0] > 0 && c[0] + remaining * c[1] < 0)
+        if (const auto c = event_series(w); !in_turn(compiled_mode_->watched[w]) && falls_within(c, remaining))
             return false;
     const auto transition = transition_at_corner(turn);
     fields_.resize(2 * states_);
@@ -152,10 +155,7 @@ std::optional<std::size_t> Trajectory::transition_at_corner(std::size_t turn) co
     const Model& model = simulation_.model();
     const auto first = crossings_.end() - static_cast<std::ptrdiff_t>(turn);
     const auto is_crossed = [&](const Slide& slide) {
-        return std::any_of(first, crossings_.end(), [&](const Crossing& one) {
-            return (one.mode_before == slide.left && one.mode_after == slide.right) ||
-                   (one.mode_before == slide.right && one.mode_after == slide.left);
-        });
+        return std::any_of(first, crossings_.end(), [&](const Crossing& one) { return crosses(one, slide); });
     };
     for (const Slide& slide : model.slides) {
         const auto along = model.find_mode(slide.name);
