@@ -3,8 +3,6 @@
 #include "graze/grazing/discontinuity_map.hpp"
 
 #include "graze/base/input_error.hpp"
-#include "graze/flow/mode_flow.hpp"
-#include "graze/trajectory/trajectory.hpp"
 #include "near_touch.hpp"
 #include "trajectory/model_parts.hpp"
 
@@ -26,27 +24,7 @@ using ::testing::HasSubstr;
 /// Returns the largest scaled difference between the simulation and the map for a motion near the touch that would
 /// penetrate to `depth`.
 double error_at(const System& system, const DiscontinuityMap& map, double depth, double time) {
-    const TouchState& touch = map.touch;
-    const std::vector<double> state = state_at_depth(system, map, depth);
-    const std::size_t n = state.size();
-    const Simulation simulation(system, {}, {}, SimulationOptions{.tolerance = 1e-15, .order = 0, .largest_step = 0});
-    ModeFlow flow(system, 1e-15);
-    flow.set_parameters(touch.parameters);
-    std::vector<double> before = state, predicted = state;
-    for (std::size_t i = 0; i < n; ++i)
-        predicted[i] += map.direction[i] * map.by_depth(depth) +
-                        (map.second.empty() ? 0 : map.second[i] * map.second_by_depth(depth));
-    EXPECT_EQ(flow.run(touch.mode, before, -time), ModeFlow::Ending::done);
-    EXPECT_EQ(flow.run(touch.mode, predicted, time), ModeFlow::Ending::done);
-    Trajectory trajectory(simulation, touch.parameters);
-    trajectory.start(before, touch.mode, 0, 2 * time);
-    run(trajectory);
-    EXPECT_EQ(trajectory.outcome().ending, Ending::end_time) << trajectory.outcome().detail;
-    EXPECT_EQ(trajectory.mode(), touch.mode);
-    double error = 0;
-    for (std::size_t i = 0; i < n; ++i)
-        error = std::max(error, std::abs(trajectory.state()[i] - predicted[i]) / touch.scales[i]);
-    return error;
+    return error_of_map(system, map, state_at_depth(system, map, depth), depth, time, 1e-15);
 }
 
 /// Checks that with the next order the error falls with half a power more.
@@ -69,17 +47,6 @@ void expect_rate(const System& system, DiscontinuityMap map, double depth, doubl
     const double far = error_at(system, map, depth, time), near = error_at(system, map, depth / 100, time);
     // The next term may be zero, so the error may fall faster.
     EXPECT_GT(std::log(far / near) / std::log(100), rate - 0.05) << far << ' ' << near;
-}
-
-TouchState touch_of(const Model& model, const std::string& mode, const std::string& event, std::vector<double> state,
-                    std::vector<double> scales = {}) {
-    TouchState touch;
-    touch.mode = *model.find_mode(mode);
-    touch.event = *model.find_event(event);
-    touch.parameters = model.parameter_values();
-    touch.scales = scales.empty() ? std::vector<double>(state.size(), 1.0) : std::move(scales);
-    touch.state = std::move(state);
-    return touch;
 }
 
 /// x'' = 2 + x z - v with z' = 1 - z + v x in front of a wall at x = 0. @param contact transitions and further modes

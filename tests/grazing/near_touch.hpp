@@ -2,12 +2,31 @@
 
 #pragma once
 
+#include "graze/flow/mode_flow.hpp"
 #include "graze/grazing/discontinuity_map.hpp"
+#include "trajectory/simulate.hpp"
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace graze::testing {
+
+inline TouchState touch_of(const Model& model, const std::string& mode, const std::string& event,
+                           std::vector<double> state, std::vector<double> scales = {}) {
+    TouchState touch;
+    touch.mode = *model.find_mode(mode);
+    touch.event = *model.find_event(event);
+    touch.parameters = model.parameter_values();
+    touch.scales = scales.empty() ? std::vector<double>(state.size(), 1.0) : std::move(scales);
+    touch.state = std::move(state);
+    return touch;
+}
 
 /// States and parameters, as functions of a system want them.
 inline std::vector<double> inputs_at(const TouchState& touch, std::vector<double> state) {
@@ -45,6 +64,32 @@ inline std::vector<double> state_at_depth(const System& system, const Discontinu
                         determinant * touch.scales[i] * touch.scales[i];
     }
     return state;
+}
+
+/// Returns the largest scaled difference between the simulation and the map for a motion that passes a state near the
+/// touch, from a time before it to the same time after it.
+/// @param depth to which the motion would penetrate
+inline double error_of_map(const System& system, const DiscontinuityMap& map, const std::vector<double>& state,
+                           double depth, double time, double tolerance) {
+    const TouchState& touch = map.touch;
+    std::vector<double> before = state, predicted = state;
+    for (std::size_t i = 0; i < state.size(); ++i)
+        predicted[i] += map.direction[i] * map.by_depth(depth) +
+                        (map.second.empty() ? 0 : map.second[i] * map.second_by_depth(depth));
+    ModeFlow flow(system, tolerance);
+    flow.set_parameters(touch.parameters);
+    EXPECT_EQ(flow.run(touch.mode, before, -time), ModeFlow::Ending::done);
+    EXPECT_EQ(flow.run(touch.mode, predicted, time), ModeFlow::Ending::done);
+    const Simulation simulation(system, {}, {}, with_tolerance(tolerance));
+    Trajectory trajectory(simulation, touch.parameters);
+    trajectory.start(before, touch.mode, 0, 2 * time);
+    run(trajectory);
+    EXPECT_EQ(trajectory.outcome().ending, Ending::end_time) << trajectory.outcome().detail;
+    EXPECT_EQ(trajectory.mode(), touch.mode);
+    double error = 0;
+    for (std::size_t i = 0; i < predicted.size(); ++i)
+        error = std::max(error, std::abs(trajectory.state()[i] - predicted[i]) / touch.scales[i]);
+    return error;
 }
 
 } // namespace graze::testing

@@ -1,8 +1,6 @@
 // Slides that are left for a short time: closed forms, and the order of the error against simulation.
 
-#include "graze/flow/mode_flow.hpp"
 #include "graze/grazing/discontinuity_map.hpp"
-#include "graze/trajectory/trajectory.hpp"
 #include "near_touch.hpp"
 #include "trajectory/model_parts.hpp"
 
@@ -10,6 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -18,17 +17,6 @@
 namespace graze::slide_excursion_test {
 
 using namespace graze::testing;
-
-TouchState touch_of(const Model& model, const std::string& mode, const std::string& event, std::vector<double> state,
-                    std::vector<double> scales = {}) {
-    TouchState touch;
-    touch.mode = *model.find_mode(mode);
-    touch.event = *model.find_event(event);
-    touch.parameters = model.parameter_values();
-    touch.scales = scales.empty() ? std::vector<double>(state.size(), 1.0) : std::move(scales);
-    touch.state = std::move(state);
-    return touch;
-}
 
 /// Returns the state on the surface of an event, at which the touched function is -depth and has zero rate.
 std::vector<double> on_surface_at_depth(const System& system, const DiscontinuityMap& map, std::size_t surface,
@@ -55,25 +43,8 @@ std::vector<double> on_surface_at_depth(const System& system, const Discontinuit
 /// -depth.
 double error_at(const Model& model, const DiscontinuityMap& map, std::size_t surface, double depth) {
     const System system(model);
-    const TouchState& touch = map.touch;
     const double time = 4 * std::sqrt(2 * depth / map.acceleration);
-    std::vector<double> before = on_surface_at_depth(system, map, surface, depth), predicted = before;
-    for (std::size_t i = 0; i < predicted.size(); ++i)
-        predicted[i] += map.direction[i] * map.by_depth(depth);
-    ModeFlow flow(system, 1e-16);
-    flow.set_parameters(touch.parameters);
-    EXPECT_EQ(flow.run(touch.mode, before, -time), ModeFlow::Ending::done);
-    EXPECT_EQ(flow.run(touch.mode, predicted, time), ModeFlow::Ending::done);
-    const Simulation simulation(system, {}, {}, SimulationOptions{.tolerance = 1e-16, .order = 0, .largest_step = 0});
-    Trajectory trajectory(simulation, touch.parameters);
-    trajectory.start(before, touch.mode, 0, 2 * time);
-    run(trajectory);
-    EXPECT_EQ(trajectory.outcome().ending, Ending::end_time) << trajectory.outcome().detail;
-    EXPECT_EQ(trajectory.mode(), touch.mode);
-    double error = 0;
-    for (std::size_t i = 0; i < predicted.size(); ++i)
-        error = std::max(error, std::abs(trajectory.state()[i] - predicted[i]) / touch.scales[i]);
-    return error;
+    return error_of_map(system, map, on_surface_at_depth(system, map, surface, depth), depth, time, 1e-16);
 }
 
 /// The error of the leading order is of the order depth^(5/2), and without the map it is of the order depth^2.

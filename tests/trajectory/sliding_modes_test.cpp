@@ -151,7 +151,6 @@ TEST(SlidingModes, EndAtATwoFold) {
         Ending::end_time);
 }
 
-/// The four fields are not f + u g + v h, so that the motion along both surfaces is not unique.
 /// A mass on a belt is pulled off where the force grows slowly beyond friction. The velocity relative to the belt then
 /// has the rate zero but for round-off of forces that cancel, of either sign; the mass is back after three times the
 /// time to the greatest force.
@@ -174,6 +173,7 @@ TEST(SlidingModes, AreLeftSlowlyForAShortTime) {
     }
 }
 
+/// The four fields are not f + u g + v h, so that the motion along both surfaces is not unique.
 TEST(SlidingModes, EndWhereSurfacesMeet) {
     std::string text = "name = \"quadrants\"\n[states]\nx = 1\ny = 3\n[events]\nfront = \"x\"\nside = \"y\"\n";
     for (const auto& [name, rates] : {std::pair("pp", "x = -1, y = -1"), std::pair("pm", "x = -1, y = 1"),

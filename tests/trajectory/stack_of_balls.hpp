@@ -14,13 +14,12 @@ namespace graze::testing {
 struct Stack {
     std::vector<double> mass, restitution, gap, velocity;
     double gravity = 9.81;
-    double floor = 0; ///< height
 
     std::size_t size() const { return mass.size(); }
 
-    std::string model(const std::string& law = "sequence") const {
+    std::string model() const {
         std::string states, rates, velocities, masses, contacts;
-        double height = floor;
+        double height = 0;
         for (std::size_t i = 0; i < size(); ++i) {
             height += gap[i];
             states += fmt::format("y{0} = {1}, v{0} = {2}, ", i, height, velocity[i]);
@@ -28,13 +27,13 @@ struct Stack {
             velocities += fmt::format("\"v{}\", ", i);
             masses += fmt::format("{}, ", mass[i]);
             contacts += fmt::format("contacts.c{} = {{ gap = \"{}\", restitution = {} }}\n", i,
-                                    i == 0 ? fmt::format("y0 - {}", floor) : fmt::format("y{} - y{}", i, i - 1),
-                                    restitution[i]);
+                                    i == 0 ? "y0" : fmt::format("y{} - y{}", i, i - 1), restitution[i]);
         }
-        return fmt::format("parameters.g = {}\nstates = {{ {} }}\nmodes.free.rates = {{ {} }}\ncontacts.law = \"{}\"\n"
-                           "contacts.velocities = [{}]\ncontacts.mass = [{}]\n{}initial.mode = \"free\"\n",
-                           gravity, states.substr(0, states.size() - 2), rates.substr(0, rates.size() - 2), law,
-                           velocities, masses, contacts);
+        return fmt::format(
+            "parameters.g = {}\nstates = {{ {} }}\nmodes.free.rates = {{ {} }}\ncontacts.law = \"sequence\"\n"
+            "contacts.velocities = [{}]\ncontacts.mass = [{}]\n{}initial.mode = \"free\"\n",
+            gravity, states.substr(0, states.size() - 2), rates.substr(0, rates.size() - 2), velocities, masses,
+            contacts);
     }
 };
 
