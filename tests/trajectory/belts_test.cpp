@@ -101,7 +101,8 @@ TEST(Belts, ImpactsDoNotStickToBoth) {
 /// A block with feet at two heights, which rub with the same coefficient and together carry the weight 1: whatever the
 /// shares, it moves as one mass, u' = p cos t - mu sgn u.
 TEST(Belts, FeetAtTwoHeightsMoveAsOneMass) {
-    for (const auto& [push, mu] : {std::pair{0.9, 0.4}, {0.6, 0.2}, {0.9, 0.1}, {1.2, 0.4}, {0.5, 0.2}}) {
+    for (const auto& pair : {std::pair{0.9, 0.4}, {0.6, 0.2}, {0.9, 0.1}, {1.2, 0.4}, {0.5, 0.2}}) {
+        const double push = pair.first, mu = pair.second; // clang 14 has no lambdas that capture structured bindings
         SCOPED_TRACE(fmt::format("push {}, friction {}", push, mu));
         Experiment experiment(model_from(fmt::format(R"toml(
 states = {{ x = 0, y = 0, p = 0, u = 0.3, v = 0, w = 0, th = {{ initial = 0, period = "2*pi" }} }}
