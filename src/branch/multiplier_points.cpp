@@ -219,8 +219,22 @@ void test_branch_point(const TestedPoint& point, std::vector<BranchTest>& tests)
                      .singular = true});
 }
 
+/// True when the kept pair of multipliers meets the multiplier 1 of a family of orbits, behind which it is real. The
+/// equations are singular there, since the plane of the pair cannot be told from the family, whether or not other
+/// orbits branch off.
+bool is_resonance_in_family(const BranchState& state, const SpecialPoint& special) {
+    constexpr double near = 1e-3; // a triple multiplier is known only to the cube root of its uncertainty
+    const BranchSettings& settings = state.settings();
+    return settings.kept && settings.kept->type == PointType::torus && settings.unfolded > 0 &&
+           std::ranges::count_if(multipliers_followed(special.solution), [](auto one) {
+               return std::abs(one - 1.0) < near;
+           }) > static_cast<std::ptrdiff_t>(settings.unfolded) + 1;
+}
+
 /// With fixed monitors branches may cross although no multiplier is 1.
 bool confirm_branch_point(BranchState& state, SpecialPoint& special, const BranchTest&) {
+    if (special.located && is_resonance_in_family(state, special))
+        special.type = PointType::resonance_1;
     return special.located && (!state.settings().free.empty() || has_multiplier(state, special, 1));
 }
 

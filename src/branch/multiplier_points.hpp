@@ -15,6 +15,10 @@ PointRule::Leave leave_flip, leave_asymmetry, leave_branch_point;
 /// Adds the tests of a degeneracy along a curve, which the curve's condition provides.
 template <PointType Type>
 void test_degeneracy(const TestedPoint& point, std::vector<BranchTest>& tests) {
+    // In families the third-order coefficient of a torus would need the orbits of equal energy beside this one: the
+    // matrix that it solves with is singular along the family.
+    if (Type == PointType::generalised_torus && point.settings.unfolded > 0)
+        return;
     for (const Degeneracy& one : point.degeneracies)
         if (one.type == Type)
             tests.push_back({.type = Type, .value = one.value, .noise = one.noise});

@@ -127,4 +127,53 @@ along = { energy = [815, 818] }
     }
 }
 
+/// A curve of torus points of a family ends where its pair of multipliers meets the 1 of the conserved energy. Along
+/// the family there, by energy at the same angle of attack, other walks branch off at the same orbit.
+TEST_F(SpringWalker, ItsTorusPointsEndWhereTheyMeetTheFamily) {
+    const std::string study = R"(name = "s"
+model = "spring-walker"
+[runs.walk]
+kind = "orbit"
+signature = "touchdown takeoff"
+[runs.family]
+kind = "continue"
+start = { run = "walk" }
+along = { energy = [780, 816] }
+direction = "down"
+[runs.torus_points]
+kind = "curve"
+start = { run = "family", point = "NS1" }
+along = { attack = [1.2, 1.25], energy = [700, 900] }
+)";
+    expect_complete(run(study));
+    double attack = 0, energy = 0, period = 0;
+    {
+        const ResultFile file(path_, ResultFile::Access::read);
+        auto rows = file.query("SELECT label, attack, energy, period FROM branch_torus_points WHERE label <> '' AND "
+                               "label NOT LIKE 'EP%' AND label NOT LIKE 'BD%'");
+        ASSERT_TRUE(rows.next());
+        EXPECT_EQ(rows.text(0), "R1-1");
+        attack = rows.number(1);
+        energy = rows.number(2);
+        period = rows.number(3);
+        EXPECT_FALSE(rows.next()) << rows.text(0);
+    }
+    expect_complete(run(study + fmt::format(R"([runs.steeper]
+kind = "continue"
+start = {{ run = "walk" }}
+along = {{ attack = [1.19, {}] }}
+direction = "up"
+[runs.beside]
+kind = "continue"
+start = {{ run = "steeper", point = "BD1" }}
+along = {{ energy = [800, 830] }}
+)",
+                                            attack)));
+    const ResultFile file(path_, ResultFile::Access::read);
+    auto rows = file.query("SELECT energy, period FROM branch_beside WHERE label = 'BP1'");
+    ASSERT_TRUE(rows.next());
+    EXPECT_NEAR(rows.number(0), energy, 1e-7 * energy);
+    EXPECT_NEAR(rows.number(1), period, 1e-9 * period);
+}
+
 } // namespace graze::spring_walker_test
