@@ -25,6 +25,11 @@ auto PartialLU<Scalar>::inverse() const -> Matrix {
     return factors_.inverse();
 }
 
+template <class Scalar>
+Scalar PartialLU<Scalar>::determinant() const {
+    return factors_.determinant();
+}
+
 template class PartialLU<double>;
 template class PartialLU<std::complex<double>>;
 

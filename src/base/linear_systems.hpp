@@ -24,6 +24,7 @@ public:
     Matrix solve_columns(const Matrix& right) const;
     Vector solve_transposed(const Vector& right) const;
     Matrix inverse() const;
+    Scalar determinant() const;
 
 private:
     Eigen::PartialPivLU<Matrix> factors_;

@@ -213,8 +213,8 @@ bool have_bifurcation_between(const Simulation& simulation, const Orbit& one, co
     OrbitEvaluation here = first.evaluation(), there = second.evaluation();
     return first.layout().pieces() == second.layout().pieces() && first.evaluate(first.unknowns_of(one), here) &&
            second.evaluate(second.unknowns_of(other), there) &&
-           (here.system.periodic_determinant() * there.system.periodic_determinant() < 0 ||
-            here.system.antiperiodic_determinant() * there.system.antiperiodic_determinant() < 0);
+           (here.system.periodic_determinant().value * there.system.periodic_determinant().value < 0 ||
+            here.system.antiperiodic_determinant().value * there.system.antiperiodic_determinant().value < 0);
 }
 
 /// Cuts off a motion where it returns to the contact that the orbit shall not have. It may reach it early, by a time

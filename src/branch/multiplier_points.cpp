@@ -44,9 +44,10 @@ PointType where_curves_meet(const TestedPoint& point, PointType own) {
 BranchTest test_of_multiplier_minus_one(const TestedPoint& point, PointType type) {
     const bool tested =
         point.equations.symmetry().has_value() == (type == PointType::asymmetry) && !is_kept(point, type);
-    return {.type = where_curves_meet(point, type),
-            .value = tested ? point.at.system.antiperiodic_determinant() : not_a_number,
-            .noise = tested ? point.at.system.antiperiodic_noise() : 0};
+    if (!tested)
+        return {.type = where_curves_meet(point, type), .value = not_a_number};
+    const CyclicSystem::Determinant determinant = point.at.system.antiperiodic_determinant();
+    return {.type = where_curves_meet(point, type), .value = determinant.value, .noise = determinant.noise};
 }
 
 /// Returns the distance of the nearest multiplier from a number.
@@ -159,8 +160,9 @@ void test_fold(const TestedPoint& point, std::vector<BranchTest>& tests) {
         test.noise = least_rise * point.at.scales[index(place)];
     } else {
         const bool kept = is_kept(point, PointType::fold) || is_kept(point, PointType::branch_point);
-        test.value = kept ? not_a_number : point.at.system.periodic_determinant();
-        test.noise = point.at.system.periodic_noise();
+        const CyclicSystem::Determinant determinant = point.at.system.periodic_determinant();
+        test.value = kept ? not_a_number : determinant.value;
+        test.noise = determinant.noise;
     }
     tests.push_back(test);
 }

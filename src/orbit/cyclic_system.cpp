@@ -47,6 +47,30 @@ void reflect(Eigen::VectorXd& vector, const Eigen::MatrixXd& mirrors) {
     }
 }
 
+/// Returns the largest singular value of a regular matrix times the product of all but the smallest one: how much the
+/// determinant changes with a change of the matrix of its own size. By power iterations, which underestimate the
+/// largest value a little, and overestimate the smallest; where the matrix is singular, by its singular values.
+double largest_minor(const Eigen::MatrixXd& matrix, const PartialLU<double>& factors, double determinant) {
+    constexpr int iterations = 4;
+    const auto begin = Eigen::VectorXd::NullaryExpr(
+        matrix.cols(), [](Eigen::Index i) { return std::cos(1.7 * static_cast<double>(i) + 0.3); });
+    Eigen::VectorXd large = begin.normalized(), small = large;
+    double largest = 0, inverse = 0;
+    for (int i = 0; i < iterations; ++i) {
+        large = matrix.transpose() * (matrix * large);
+        largest = std::sqrt(large.norm());
+        large.normalize();
+        small = factors.solve(factors.solve_transposed(small));
+        inverse = std::sqrt(small.norm());
+        small.normalize();
+    }
+    const double result = largest * std::abs(determinant) * inverse;
+    if (determinant != 0 && std::isfinite(result))
+        return result;
+    const Eigen::VectorXd values = singular_values(matrix, SingularVectors::none).values;
+    return values[0] * values.head(values.size() - 1).prod();
+}
+
 } // namespace
 
 CyclicSystem::CyclicSystem(std::size_t states, std::size_t parameters) : n_(states), q_(parameters) {
@@ -97,31 +121,15 @@ bool CyclicSystem::factor() {
     return true;
 }
 
-double CyclicSystem::periodic_determinant() const {
-    const Eigen::Index n = index(n_);
-    return sign_ * determinant(final_.leftCols(n) + final_.middleCols(n, n));
-}
-
-double CyclicSystem::antiperiodic_determinant() const {
-    const Eigen::Index n = index(n_);
-    return sign_ * determinant(final_.leftCols(n) - final_.middleCols(n, n));
-}
-
-double CyclicSystem::periodic_noise() const {
-    return noise(1);
-}
-
-double CyclicSystem::antiperiodic_noise() const {
-    return noise(-1);
-}
-
-double CyclicSystem::noise(double closing) const {
+CyclicSystem::Determinant CyclicSystem::determinant_closed_by(double closing) const {
     constexpr double round_off = 1e-9; // error of the integrated derivatives
     const Eigen::Index n = index(n_);
-    const Eigen::VectorXd values =
-        singular_values(Eigen::MatrixXd(final_.leftCols(n) + closing * final_.middleCols(n, n)), SingularVectors::none)
-            .values;
-    return n == 0 ? 0 : round_off * values[0] * values.head(n - 1).prod();
+    if (n == 0)
+        return {sign_, 0};
+    const Eigen::MatrixXd matrix = final_.leftCols(n) + closing * final_.middleCols(n, n);
+    const PartialLU<double> factors(matrix);
+    const double value = factors.determinant();
+    return {sign_ * value, round_off * largest_minor(matrix, factors, value)};
 }
 
 /// Returns the matrix of the condensed equations, in x_0 and p alone.

@@ -36,14 +36,15 @@ public:
 
     /// Factors the blocks without their right-hand sides. @return false when a number is not finite
     bool factor();
-    /// Determinants of the system without parameters, up to a positive factor: of the periodic closure x_m = x_0, zero
-    /// where a multiplier is 1, and of the antiperiodic closure x_m = -x_0, zero where a multiplier is -1. Requires
-    /// `factor`, like all functions below.
-    double periodic_determinant() const;
-    double antiperiodic_determinant() const;
-    /// Magnitudes of the determinants below which their signs are round-off.
-    double periodic_noise() const;
-    double antiperiodic_noise() const;
+    /// A determinant of the system without parameters, up to a positive factor.
+    struct Determinant {
+        double value = 0;
+        double noise = 0; ///< magnitude below which the sign is round-off: its order, estimated
+    };
+    /// Of the periodic closure x_m = x_0, zero where a multiplier is 1. Requires `factor`, like all functions below.
+    Determinant periodic_determinant() const { return determinant_closed_by(1); }
+    /// Of the antiperiodic closure x_m = -x_0, zero where a multiplier is -1.
+    Determinant antiperiodic_determinant() const { return determinant_closed_by(-1); }
 
     /// The factored system with its q border equations, which serves any number of right-hand sides. Unknowns are (x_0,
     /// T_0, x_1, T_1, ..., p). It can be copied, but must be used with the system that made it.
@@ -88,7 +89,7 @@ public:
     Eigen::VectorXd between(const Eigen::VectorXd& first, const Eigen::VectorXd& last) const;
 
 private:
-    double noise(double closing) const;
+    Determinant determinant_closed_by(double closing) const;
     Eigen::VectorXd reduced(const Eigen::VectorXd& blocks, std::vector<Eigen::VectorXd>& constants) const;
     Eigen::MatrixXd condense(const Eigen::MatrixXd& borders, std::vector<Eigen::MatrixXd>& shares) const;
     Eigen::VectorXd expand(const Eigen::VectorXd& first, const Eigen::VectorXd& last,

@@ -208,6 +208,26 @@ std::vector<Eigen::MatrixXd> SectionMapFactors::without_shifts() const {
     return result;
 }
 
+/// Returns the eigenvalues of the product itself if they are of similar magnitude, so that none loses digits to
+/// another; empty otherwise, or if the product is not finite.
+std::vector<std::complex<double>> similar_eigenvalues(const std::vector<Eigen::MatrixXd>& factors) {
+    constexpr std::size_t most_factors = 8; // each adds its round-off
+    constexpr double least = 0.1;           // of a typical magnitude
+    if (factors.size() > most_factors)
+        return {};
+    Eigen::MatrixXd product = factors.front();
+    const double size = std::sqrt(static_cast<double>(product.rows()));
+    double typical = product.norm() / size;
+    for (std::size_t k = 1; k < factors.size(); ++k) {
+        product = factors[k] * product;
+        typical *= factors[k].norm() / size;
+    }
+    const auto values = product.allFinite() ? eigenvalues(product) : std::nullopt;
+    if (!values || !(values->cwiseAbs().minCoeff() >= least * typical))
+        return {};
+    return {values->begin(), values->end()};
+}
+
 /// Enough to separate eigenvalues whose moduli differ by a factor of six.
 constexpr int most_sweeps = 16;
 constexpr double coupling_tolerance = 1e-13;
@@ -258,6 +278,14 @@ std::vector<std::complex<double>> product_eigenvalues(const std::vector<Eigen::M
     std::vector<std::complex<double>> result;
     if (factors.empty() || factors.front().rows() == 0)
         return result;
+    const auto largest_first = [](auto& values) {
+        std::ranges::stable_sort(values, [](auto a, auto b) { return std::abs(a) > std::abs(b); });
+    };
+    result = similar_eigenvalues(factors);
+    if (!result.empty()) {
+        largest_first(result);
+        return result;
+    }
     const Eigen::Index n = factors.front().rows();
     Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(n, n), before = basis;
     std::vector<Eigen::MatrixXd> triangles(factors.size());
@@ -302,7 +330,7 @@ std::vector<std::complex<double>> product_eigenvalues(const std::vector<Eigen::M
         }
         begin = end;
     }
-    std::ranges::stable_sort(result, [](auto a, auto b) { return std::abs(a) > std::abs(b); });
+    largest_first(result);
     return result;
 }
 

@@ -46,7 +46,7 @@ Found follow_to_fold(std::unique_ptr<OrbitEquations> equations, const Orbit& orb
             ((at.tangent[place] < 0) == falls ? low : high) = middle;
         }
         found.fold = at.u[place];
-        found.flip_determinant = problem.evaluation().system.antiperiodic_determinant();
+        found.flip_determinant = problem.evaluation().system.antiperiodic_determinant().value;
         break;
     }
     return found;

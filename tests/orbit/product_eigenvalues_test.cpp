@@ -63,6 +63,19 @@ TEST(ProductEigenvalues, EqualThoseOfAWellConditionedProduct) {
     }
 }
 
+/// Similar ones, up to just where they are no longer taken from the product itself, have nearly all digits.
+TEST(ProductEigenvalues, OfSimilarSizesHaveNearlyAllDigits) {
+    for (const double smallest : {0.9, 0.5, 0.2, 0.15, 0.1, 0.05, 0.01}) {
+        const std::vector<double> known{1.1, 0.95, -0.92, smallest, -0.9 * smallest};
+        for (const std::size_t count : {1u, 2u, 8u, 9u}) {
+            const auto found = product_eigenvalues(factors_with(known, count));
+            ASSERT_EQ(found.size(), known.size());
+            for (std::size_t i = 0; i < known.size(); ++i)
+                EXPECT_NEAR(found[i].real() / known[i], 1, 3e-14) << smallest << ' ' << count << ' ' << i;
+        }
+    }
+}
+
 TEST(ProductEigenvalues, IncludeComplexPairsAndZeros) {
     std::vector<Eigen::MatrixXd> factors(2, Eigen::MatrixXd::Zero(3, 3));
     factors[0] << 0.6, -0.8, 0, 0.8, 0.6, 0, 0, 0, 1; // a rotation
