@@ -46,6 +46,8 @@ export class FigureView {
   private readonly tools = make("div", { class: "tools", role: "group", "aria-label": "Picture" });
   private readonly chooserButton = button("Choose…", () => this.toggleChooser());
   private logarithmicBoxes: HTMLInputElement[] = [];
+  /** Choices for x and y since the picture was asked for: they hold for it too when it arrives. */
+  private chosenAxes: [boolean?, boolean?] = [];
   private readonly before: PictureWish[] = []; // what the picture showed, the last one last
   private readonly backButton = button("↶", () => this.goBack(), {
     "aria-label": "Show what this picture showed before",
@@ -155,6 +157,7 @@ export class FigureView {
     this.backButton.hidden = this.before.length === 0;
     const sameAxes = wish.x === this.wish.x && wish.kind === this.wish.kind && wish.name === this.wish.name;
     this.wish = wish;
+    this.chosenAxes = [];
     fill(this.refusal);
     if (!sameAxes && !this.sameQuantities) this.logarithmic = [];
     void this.load();
@@ -165,7 +168,8 @@ export class FigureView {
     this.wish = drawn;
     if (this.before[this.before.length - 1] === drawn) this.before.pop();
     this.backButton.hidden = this.before.length === 0;
-    this.logarithmic = this.diagrams.map((diagram) => diagram.logarithmic);
+    this.logarithmic = this.diagrams.map((diagram) => this.asChosen(diagram.logarithmic));
+    this.redraw();
     this.sameQuantities = false;
     fill(this.refusal, problem(`The picture stays as it was: ${why}`));
     this.chooser?.takeBack(this.ownWish);
@@ -259,7 +263,7 @@ export class FigureView {
     this.root.setAttribute("aria-label", `Picture: ${this.title.textContent}`);
     this.grid.style.setProperty("--columns", String(Math.max(1, figure.columns)));
     if (this.logarithmic.length !== figure.panels.length)
-      this.logarithmic = figure.panels.map((panel) => [panel.x.logarithmic, panel.y.logarithmic]);
+      this.logarithmic = figure.panels.map(({ x, y }) => this.asChosen([x.logarithmic, y.logarithmic]));
     this.redraw();
     this.sameQuantities = false;
     this.rememberedViews.forEach((view, index) => view && this.diagrams[index]?.setView(view));
@@ -344,8 +348,9 @@ export class FigureView {
   /** The buttons stay while the figure is drawn again: one that is being pressed must not be replaced. */
   private makeTools(): void {
     const setAxis = (axis: 0 | 1) => (on: boolean) => {
+      this.chosenAxes[axis] = on;
       this.logarithmic.forEach((one) => (one[axis] = on));
-      this.redraw();
+      if (this.logarithmic.length > 0) this.redraw();
     };
     const boxes = [checkbox("log x", false, setAxis(0)), checkbox("log y", false, setAxis(1))];
     this.logarithmicBoxes = boxes.map((box) => box.querySelector("input")).filter((box) => box !== null);
@@ -363,6 +368,10 @@ export class FigureView {
       }),
       button("✕", () => this.neighbours.close(this), { "aria-label": "Close this picture", class: "close" }),
     );
+  }
+
+  private asChosen([x, y]: [boolean, boolean]): [boolean, boolean] {
+    return [this.chosenAxes[0] ?? x, this.chosenAxes[1] ?? y];
   }
 
   private studyText(name: string): string {

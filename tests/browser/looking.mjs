@@ -238,6 +238,28 @@ export const cases = [
     },
   ],
   [
+    "a picture that arrives after an axis was made logarithmic leaves it so",
+    async (bench) => {
+      const page = await bench.openResults();
+      await page.getByRole("button", { name: "Choose…" }).click();
+      const y = page.locator('.chooser-form label:has(> span:text-is("y")) select');
+      await y.selectOption("period");
+      await page.getByRole("button", { name: "Leave out max_v" }).click();
+      await until(page, () => document.querySelectorAll(".figure .diagram").length === 1);
+      let arrive;
+      const chosen = new Promise((done) => (arrive = done));
+      await page.route("**/api/figure*", async (route) => {
+        await chosen;
+        await route.continue();
+      });
+      await y.selectOption("");
+      await page.getByLabel("log x").check();
+      arrive();
+      await until(page, () => document.querySelectorAll(".figure .diagram").length === 2);
+      assert.ok(await page.getByLabel("log x").isChecked());
+    },
+  ],
+  [
     "shows the same after it was loaded again",
     async (bench) => {
       const page = await bench.openResults();
