@@ -21,20 +21,6 @@ Eigen::Index SingularValues::rank(double threshold) const {
     return result;
 }
 
-namespace {
-
-template <class Factors>
-SingularValues values_of(const Factors& factors) {
-    SingularValues result{factors.singularValues(), {}, {}};
-    if (factors.computeU())
-        result.left = factors.matrixU();
-    if (factors.computeV())
-        result.right = factors.matrixV();
-    return result;
-}
-
-} // namespace
-
 SingularValues singular_values(const Eigen::MatrixXd& matrix, SingularVectors vectors) {
     if (matrix.size() == 0) // Eigen cannot decompose an empty matrix
         return {{},
@@ -47,11 +33,14 @@ SingularValues singular_values(const Eigen::MatrixXd& matrix, SingularVectors ve
         options = Eigen::ComputeFullU | Eigen::ComputeFullV;
     else if (vectors == SingularVectors::thin)
         options = Eigen::ComputeThinU | Eigen::ComputeThinV;
-    // Jacobi's method is the more accurate one, but takes ten times as long for some hundred columns.
-    constexpr Eigen::Index large = 64;
-    if (std::min(matrix.rows(), matrix.cols()) < large)
-        return values_of(Eigen::JacobiSVD<Eigen::MatrixXd>(matrix, options));
-    return values_of(Eigen::BDCSVD<Eigen::MatrixXd>(matrix, options));
+    // Eigen 3.4's BDCSVD is ten times as fast for some hundred columns, but fails for some matrices of low rank.
+    const Eigen::JacobiSVD<Eigen::MatrixXd> factors(matrix, options);
+    SingularValues result{factors.singularValues(), {}, {}};
+    if (factors.computeU())
+        result.left = factors.matrixU();
+    if (factors.computeV())
+        result.right = factors.matrixV();
+    return result;
 }
 
 namespace {

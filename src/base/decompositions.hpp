@@ -10,8 +10,7 @@ namespace graze {
 // them would spend most of its compile time there. Eigen's classes of the same names do the work; the shapes are
 // theirs. An empty real matrix has no singular values and no eigenvalues.
 
-/// matrix = left * diagonal(values) * right.transpose(), by Jacobi's method or, for large matrices, by division of a
-/// bidiagonal one; values in falling order.
+/// matrix = left * diagonal(values) * right.transpose(), by Jacobi's method; values in falling order.
 struct SingularValues {
     Eigen::VectorXd values;
     Eigen::MatrixXd left, right; ///< filled as requested by SingularVectors
