@@ -122,7 +122,7 @@ bool cuts_are_oblique(const OrbitEquations& equations, const OrbitEvaluation& at
 
 std::optional<UncutOrbit> without_sections(const Model& model, const Orbit& orbit, const OrbitDirection& direction) {
     const Signature& signature = orbit.signature;
-    if (is_homoclinic(signature))
+    if (is_homoclinic(signature) || orbit.cycle)
         return std::nullopt;
     const auto last = std::find_if(signature.rbegin(), signature.rend(), is_event);
     if (last == signature.rend()) {

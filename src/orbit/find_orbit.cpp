@@ -5,6 +5,7 @@
 #include "graze/trajectory/trajectory.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/cut.hpp"
+#include "orbit/sections_of.hpp"
 #include "orbit/solve_equilibrium.hpp"
 
 #include <fmt/format.h>
@@ -101,23 +102,6 @@ void extract_period(const FollowedMotion& motion, double duration, Orbit& orbit)
         orbit.starts.push_back(motion.starts[k]);
         orbit.durations.push_back(motion.durations[k]);
     }
-}
-
-/// Returns the sections at which segments of a signature end, each once, in the order of the model.
-std::vector<std::size_t> sections_of(const Model& model, const Signature& signature) {
-    std::vector<std::size_t> sections;
-    for (std::size_t s = 0; s < model.sections.size(); ++s)
-        if (std::ranges::any_of(signature,
-                                [&](const Segment& one) { return one.end == SegmentEnd::section && one.index == s; }))
-            sections.push_back(s);
-    return sections;
-}
-
-std::vector<Probe> probes_of(const Model& model, const Signature& signature) {
-    std::vector<Probe> probes;
-    for (const std::size_t section : sections_of(model, signature))
-        probes.push_back(section_probe(model, model.sections[section].name));
-    return probes;
 }
 
 /// Follows a motion and tries each piece of it that has the signature as a first guess.

@@ -93,7 +93,7 @@ bool repeats_as_image(const Orbit& orbit, std::size_t index, const OrbitEquation
 
 std::optional<Orbit> half_of(const OrbitEquations& equations, const Orbit& orbit, double tolerance) {
     const Model& model = equations.model();
-    if (orbit.symmetry)
+    if (orbit.symmetry || orbit.cycle)
         return std::nullopt;
     const std::vector<double> periods = equations.system().periods()(orbit.parameters);
     for (std::size_t index = 0; index < model.symmetries.size(); ++index) {

@@ -159,7 +159,7 @@ std::optional<HomoclinicCandidate> homoclinic_candidate(const System& system, co
     // Largest share of the greatest speed; largest distance of the slow place from the saddle; the candidate begins and
     // ends at a multiple of that, where its distance from the spaces is small against that from the saddle.
     constexpr double slow = 0.1, nearest = 0.05, farther = 4, uncertain = 3;
-    const auto whole = whole_of(system, orbit);
+    const auto whole = orbit.cycle ? std::nullopt : whole_of(system, orbit);
     const std::vector<Arc> arcs = whole ? arcs_of(*whole) : std::vector<Arc>();
     if (arcs.empty())
         return std::nullopt;

@@ -133,10 +133,32 @@ Orbit whole_orbit(const System& system, const Orbit& orbit) {
     return smooth ? cut_at_section(system, whole, last.index) : whole;
 }
 
+namespace {
+
+/// Requires that an orbit which is homoclinic to a cycle begins and ends with the cycle's segments.
+void validate_cycle(const Orbit& orbit) {
+    const std::size_t count = *orbit.cycle;
+    const Signature& all = orbit.signature;
+    const auto some = static_cast<std::ptrdiff_t>(count);
+    if (count == 0 || all.size() / 2 < count || !std::equal(all.begin(), all.begin() + some, all.end() - some))
+        throw InputError(
+            fmt::format("an orbit that is homoclinic to a cycle of {} segments does not begin and end with "
+                        "these segments",
+                        count),
+            "let it turn once beside the cycle before it leaves it, and once after it has come back");
+    if (orbit.symmetry || std::ranges::any_of(all, [](const Segment& one) { return one.end == SegmentEnd::chatter; }))
+        throw InputError("an orbit that is homoclinic to a cycle is given whole, and without complete chatter",
+                         "leave out its symmetry, and choose another cycle where contacts accumulate");
+}
+
+} // namespace
+
 void validate_orbit(const Model& model, const Orbit& orbit) {
     if (orbit.symmetry && *orbit.symmetry >= model.symmetries.size())
         throw InputError("the orbit has a symmetry that the model does not have", "declare it in the model");
     validate_signature(model, orbit.signature, {}, orbit.symmetry);
+    if (orbit.cycle)
+        validate_cycle(orbit);
     if (orbit.parameters.size() != model.independent_parameters().size())
         throw InputError(fmt::format("the orbit has {} parameters and the model {}", orbit.parameters.size(),
                                      model.independent_parameters().size()),

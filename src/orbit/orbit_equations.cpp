@@ -46,6 +46,8 @@ OrbitEquations::OrbitEquations(const Simulation& simulation, const Orbit& orbit,
     }
     if (is_homoclinic(orbit.signature))
         homoclinic_.emplace(simulation.system(), modes_.back(), ends_.free());
+    if (orbit.cycle)
+        cycle_.emplace(simulation, orbit, ends_.free());
     flow_.set_parameters(parameters_);
     follow_contacts(orbit);
 }
@@ -79,31 +81,40 @@ void OrbitEquations::lay_out(const Orbit& orbit, const std::vector<std::size_t>&
     ends_.lay_cuts(orbit, scales_.head(index(layout_.states())));
     if (homoclinic_)
         keep_distances(unknowns);
+    if (std::vector<double> end; cycle_)
+        cycle_->set_scales(extents(unknowns, end));
     OrbitEvaluation at = evaluation();
     if (layout_.free() > 0 && evaluate(unknowns, at)) // the evaluation has measured the effects of the parameters
         set_scales(unknowns);
 }
 
-/// Keeps the distances from the saddle at which an orbit begins and ends, in units of the extents of the states.
-void OrbitEquations::keep_distances(const Eigen::VectorXd& unknowns) {
+/// Returns the extents of the states along the orbit. @param end set to its last state
+Eigen::VectorXd OrbitEquations::extents(const Eigen::VectorXd& unknowns, std::vector<double>& end) {
     constexpr int parts = 24;
     const std::size_t n = layout_.states();
-    std::vector<double> end, parameters;
+    std::vector<double> parameters;
     set_parameters(unknowns, parameters);
-    StateScales extents(n);
-    extents.begin();
+    StateScales sizes(n);
+    sizes.begin();
     for (std::size_t k = 0; k < layout_.pieces(); ++k) {
         const double* const start = unknowns.data() + layout_.start_of(k);
         end.assign(start, start + n);
-        extents.note(end);
+        sizes.note(end);
         for (int part = 0; part < parts; ++part) {
             flow_.run(mode_of(k), end, unknowns[index(layout_.duration_of(k))] / parts);
-            extents.note(end);
+            sizes.note(end);
         }
     }
     const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(index(n), index(n));
-    homoclinic_->keep_distances({unknowns.data(), n}, end, parameters,
-                                vector_of(extents.choose(ends_.periods(), none, none)));
+    return vector_of(sizes.choose(ends_.periods(), none, none));
+}
+
+/// Keeps the distances from the saddle at which an orbit begins and ends, in units of the extents of the states.
+void OrbitEquations::keep_distances(const Eigen::VectorXd& unknowns) {
+    std::vector<double> end, parameters;
+    const Eigen::VectorXd sizes = extents(unknowns, end);
+    set_parameters(unknowns, parameters);
+    homoclinic_->keep_distances({unknowns.data(), layout_.states()}, end, parameters, sizes);
 }
 
 Eigen::VectorXd OrbitEquations::unknowns_of(const Orbit& orbit) {
@@ -192,6 +203,8 @@ void OrbitEquations::take_segments(const Eigen::VectorXd& unknowns, std::vector<
 
 Orbit OrbitEquations::orbit_of(const Eigen::VectorXd& unknowns) const {
     Orbit orbit{signature(), parameters_, {}, {}, symmetry()};
+    if (cycle_)
+        orbit.cycle = cycle_->cycle().segments();
     for (std::size_t f = 0; f < layout_.free(); ++f)
         orbit.parameters[free()[f].place()] = unknowns[index(layout_.parameter(f))];
     take_segments(unknowns, orbit.starts, orbit.durations);
@@ -253,6 +266,8 @@ void OrbitEquations::set_parameters(const Eigen::VectorXd& unknowns, std::vector
     ends_.set_parameters(parameters);
     if (homoclinic_)
         homoclinic_->set_parameters(parameters);
+    if (cycle_)
+        cycle_->set_parameters(parameters);
 }
 
 void OrbitEquations::set_scales(const Eigen::VectorXd& unknowns) {
@@ -311,6 +326,10 @@ bool OrbitEquations::evaluate(const Eigen::VectorXd& unknowns, OrbitEvaluation& 
     set_parameters(unknowns, at.parameters);
     if (homoclinic_ && !homoclinic_->problem().empty()) {
         at.problem = homoclinic_->problem();
+        return false;
+    }
+    if (cycle_ && !cycle_->problem().empty()) {
+        at.problem = cycle_->problem();
         return false;
     }
     at.periods = ends_.periods();
@@ -437,7 +456,7 @@ bool OrbitEquations::contacts_need_renewal(const OrbitEvaluation& at) const {
 
 /// Fills the blocks of the linear system, in scaled unknowns and equations.
 void OrbitEquations::assemble(const Eigen::VectorXd& unknowns, OrbitEvaluation& at) {
-    std::vector<bool> neutral(layout_.states(), !homoclinic_);
+    std::vector<bool> neutral(layout_.states(), !homoclinic_ && !cycle_);
     at.effects.setZero(index(layout_.free()));
     for (std::size_t k = 0; k < layout_.pieces(); ++k) {
         CyclicSystem::Block& block = at.system.block(k);
@@ -455,6 +474,8 @@ void OrbitEquations::assemble(const Eigen::VectorXd& unknowns, OrbitEvaluation& 
         }
         if (homoclinic_ && k + 1 == layout_.pieces())
             assemble_ends_at_saddle(unknowns, at);
+        else if (cycle_ && k + 1 == layout_.pieces())
+            assemble_ends_at_cycle(unknowns, at);
         else
             assemble_closure(k, unknowns, at, neutral);
     }
@@ -607,6 +628,26 @@ void OrbitEquations::assemble_ends_at_saddle(const Eigen::VectorXd& unknowns, Or
     at.departure = departure.value;
     at.departure_by = departure.gradient;
     at.eigenvalues = homoclinic_->saddle().eigenvalues();
+}
+
+/// Fills the rows that take the place of continuity after the last piece of an orbit that is homoclinic to a cycle.
+void OrbitEquations::assemble_ends_at_cycle(const Eigen::VectorXd& unknowns, OrbitEvaluation& at) const {
+    const auto n = index(layout_.states()), q = index(layout_.free());
+    const OrbitEvaluation::Piece& piece = at.pieces.back();
+    CyclicSystem::Block& block = at.system.block(layout_.pieces() - 1);
+    const CycleEnds::Equations ends =
+        cycle_->equations({unknowns.data(), layout_.states()}, piece.after, ends_.period_rates());
+    const Eigen::VectorXd state_scales = scales_.head(n), units = state_scales.cwiseInverse();
+    const Eigen::MatrixXd by_end = units.asDiagonal() * ends.by_end * piece.jump.leftCols(n);
+    const Eigen::MatrixXd by_parameters =
+        units.asDiagonal() * (ends.by_parameters + ends.by_end * piece.jump.rightCols(q)) +
+        by_end * piece.flow.rightCols(q);
+    at.effects = at.effects.cwiseMax(by_parameters.cwiseAbs().colwise().maxCoeff().transpose());
+    block.own.block(1, 0, n, n) = by_end * piece.flow.leftCols(n) * state_scales.asDiagonal();
+    block.own.block(1, n, n, 1) = by_end * piece.by_time * scales_[index(layout_.duration_of(layout_.pieces() - 1))];
+    block.parameters.bottomRows(n) = by_parameters * scales_.tail(q).asDiagonal();
+    block.next.bottomRows(n) = units.asDiagonal() * ends.by_begin * state_scales.asDiagonal();
+    block.right.tail(n) = -units.cwiseProduct(ends.values);
 }
 
 /// Subtracts from the continuity row of a state in the last piece that of the drifting state with which it is

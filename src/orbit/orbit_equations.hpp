@@ -1,6 +1,7 @@
 #pragma once
 
 #include "orbit/accumulation.hpp"
+#include "orbit/cycle_ends.hpp"
 #include "orbit/homoclinic_ends.hpp"
 #include "orbit/orbit_scales.hpp"
 #include "orbit/segment_ends.hpp"
@@ -26,7 +27,8 @@ inline constexpr double least_rate = 1e-11;
 ///
 /// A homoclinic orbit, whose last segment approaches a saddle, does not close: the equations demand that it begins in
 /// the linear unstable space of the saddle and ends in the stable one, at a given distance. It exists for one value of
-/// a free parameter, which the distance at which it begins determines as a border equation (`departure_row`).
+/// a free parameter, which the distance at which it begins determines as a border equation (`departure_row`). An orbit
+/// that is homoclinic to a cycle does not close either, and exists without such a condition (`CycleEnds`).
 class OrbitEquations {
 public:
     virtual ~OrbitEquations() = default;
@@ -92,7 +94,7 @@ public:
     /// scaled. @return false when the matrix is singular
     bool respond(const OrbitEvaluation& at, const Eigen::VectorXd& change, Eigen::VectorXd& step) const;
     /// True when `chord` is available.
-    bool has_chords() const { return layout_.inner() == 0 && !homoclinic_; }
+    bool has_chords() const { return layout_.inner() == 0 && !homoclinic_ && !cycle_; }
     /// True when an evaluation with derivatives costs much more than the flow alone, as with many states and
     /// parameters.
     bool derivatives_are_expensive() const { return layout_.states() + layout_.free() >= many_inputs; }
@@ -115,6 +117,8 @@ public:
     Eigen::RowVectorXd departure_row(const OrbitEvaluation& at) const;
     /// The ends of a homoclinic orbit; null for others.
     const HomoclinicEnds* homoclinic_ends() const { return homoclinic_ ? &*homoclinic_ : nullptr; }
+    /// The ends of an orbit that is homoclinic to a cycle; null for others.
+    const CycleEnds* cycle_ends() const { return cycle_ ? &*cycle_ : nullptr; }
     /// Returns the rate of the end condition of a segment along the flow at its end: minus the approach speed.
     double rate_at_end(const OrbitEvaluation& at, std::size_t segment) const;
     /// Returns the typical size of this rate: the change of the end condition over the scales of the states, divided by
@@ -169,6 +173,7 @@ private:
     SegmentEnds::Passed passed_at(std::size_t piece) const;
     double duration_of_segment(const Eigen::VectorXd& unknowns, std::size_t segment) const;
     void set_contacts(const Orbit& orbit, std::size_t segment, Eigen::VectorXd& unknowns);
+    Eigen::VectorXd extents(const Eigen::VectorXd& unknowns, std::vector<double>& end);
     void keep_distances(const Eigen::VectorXd& unknowns);
     bool accumulate(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at);
     bool evaluate_piece(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at);
@@ -180,6 +185,7 @@ private:
     void assemble_closure(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at,
                           std::vector<bool>& neutral) const;
     void assemble_ends_at_saddle(const Eigen::VectorXd& unknowns, OrbitEvaluation& at) const;
+    void assemble_ends_at_cycle(const Eigen::VectorXd& unknowns, OrbitEvaluation& at) const;
     void drop_accidentally_neutral(const OrbitEvaluation& at, std::vector<bool>& neutral);
     void close_with(std::size_t state, std::size_t drifting, OrbitEvaluation& at) const;
     void pin(const Eigen::VectorXd& unknowns, const std::vector<bool>& neutral, OrbitEvaluation& at) const;
@@ -192,6 +198,7 @@ private:
     SegmentEnds ends_;
     std::vector<std::size_t> modes_; ///< of the segments
     std::optional<HomoclinicEnds> homoclinic_;
+    std::optional<CycleEnds> cycle_;
     ModeFlow flow_;
     OrbitLayout layout_;
     OrbitScales orbit_scales_;

@@ -55,7 +55,10 @@ bool SecondVariation::contract(const OrbitEquations& equations, const OrbitEvalu
         for (std::size_t i = 0; k + 1 == layout.pieces() && i < states_; ++i)
             if (const auto& with = equations.model().states[i].drifts_with)
                 weights.row(1 + index(*with)) -= weights.row(1 + index(i));
-        change -= weights.bottomRows(n).transpose() * tangent.of_gain;
+        if (const CycleEnds* const ends = equations.cycle_ends(); ends && k + 1 == layout.pieces())
+            change += weights.bottomRows(n).transpose() * ends->by_end() * tangent.of_gain;
+        else
+            change -= weights.bottomRows(n).transpose() * tangent.of_gain;
         gradients.middleCols(place, n + 1) += change.leftCols(n + 1);
         gradients.rightCols(q) += change.rightCols(q);
     }

@@ -200,6 +200,8 @@ void describe_orbit(OrbitEquations& equations, const OrbitEvaluation& at, OrbitS
     solution.residual = at.residual;
     if (equations.homoclinic_ends()) // there is no section map
         solution.eigenvalues = at.eigenvalues;
+    else if (equations.cycle_ends())
+        solution.multipliers = equations.cycle_ends()->cycle().multipliers();
     else
         solution.multipliers = floquet_multipliers(equations, at);
     if (equations.symmetry()) {

@@ -2,6 +2,7 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
+#include "orbit/end_distances.hpp"
 #include "orbit/newton.hpp"
 #include "orbit/shooting.hpp"
 
@@ -15,36 +16,19 @@ namespace graze {
 
 namespace {
 
-/// The distances from the saddle at which an orbit begins and ends, in units of the scales of its states.
-struct Distances {
-    double departure = 0, approach = 0;
-};
-
-/// The spaces are curved, so that an orbit that ends in the linear stable space at a small distance d is off its stable
-/// manifold by d^2. Followed back along the orbit that shrinks with the slowest growth g, while d grows with the
-/// slowest decay s: the effect on the parameter is of the order d^(2 + g/s). The same holds for the beginning with s/g.
-Distances wanted_distances(const Saddle& saddle) {
-    constexpr double round_off = 1e-13, least = 1e-7, greatest = 0.05;
-    const double growth = saddle.slowest_growth(), decay = saddle.slowest_decay();
-    const auto distance = [&](double ratio) {
-        return std::clamp(std::pow(round_off, 1 / (2 + ratio)), least, greatest);
-    };
-    return {distance(decay / growth), distance(growth / decay)};
-}
-
-bool are_near(const Distances& one, const Distances& other, double factor) {
+bool are_near(const EndDistances& one, const EndDistances& other, double factor) {
     const auto near = [&](double a, double b) { return a < factor * b && b < factor * a; };
     return near(one.departure, other.departure) && near(one.approach, other.approach);
 }
 
-Distances distances_of(const HomoclinicEnds& ends) {
+EndDistances distances_of(const HomoclinicEnds& ends) {
     return {ends.departure(), ends.approach()};
 }
 
 /// Returns distances on the way to others. The end of the orbit is moved along its motion, which leaves the stable
 /// space again: from an end that is off by d^2, the distance can be made smaller by a factor f as long as d^2 f^(-g/s)
 /// stays below it.
-Distances on_the_way(const Distances& from, const Distances& to, const Saddle& saddle) {
+EndDistances on_the_way(const EndDistances& from, const EndDistances& to, const Saddle& saddle) {
     constexpr double share = 0.2, shortest = 1e-2, always = 0.5;
     const double ratio = saddle.slowest_growth() / saddle.slowest_decay();
     const double least = std::clamp(std::pow(from.approach / share, 1 / (1 + ratio)), shortest, always);
@@ -63,9 +47,10 @@ public:
             return std::move(result_);
         std::optional<double> coarse; // the parameter at larger distances
         for (int change = 0; change < most_changes; ++change) {
-            const Distances wanted = wanted_distances(saddle()),
-                            target = coarse ? wanted : Distances{larger * wanted.departure, larger * wanted.approach},
-                            next = on_the_way(distances_of(*equations_->homoclinic_ends()), target, saddle());
+            const EndDistances wanted = wanted_distances(saddle().slowest_growth(), saddle().slowest_decay()),
+                               target =
+                                   coarse ? wanted : EndDistances{larger * wanted.departure, larger * wanted.approach},
+                               next = on_the_way(distances_of(*equations_->homoclinic_ends()), target, saddle());
             const auto orbit = at(next);
             if (!orbit)
                 break;
@@ -152,7 +137,7 @@ private:
 
     /// Returns the orbit that begins and ends at other distances: nearer to the saddle it follows the linearised
     /// motion, farther from it its own.
-    std::optional<Orbit> at(const Distances& distances) {
+    std::optional<Orbit> at(const EndDistances& distances) {
         Orbit orbit = result_.solution.orbit;
         Eigen::VectorXd departing = saddle().to_coordinates() * saddle().from_saddle(orbit.starts.front());
         departing.tail(saddle().stable()).setZero();
@@ -194,7 +179,8 @@ private:
 
 bool distances_need_renewal(const HomoclinicEnds& ends) {
     constexpr double far = 4;
-    return ends.have_turned() || !are_near(distances_of(ends), wanted_distances(ends.saddle()), far);
+    const EndDistances wanted = wanted_distances(ends.saddle().slowest_growth(), ends.saddle().slowest_decay());
+    return ends.have_turned() || !are_near(distances_of(ends), wanted, far);
 }
 
 HomoclinicSolution solve_homoclinic(const System& system, const Orbit& candidate, ParameterId parameter,

@@ -51,6 +51,9 @@ void defective_orbits(WrongUses& wrong) {
     orbit("symmetry_0", [](Orbit& o) { o.symmetry = 0; });
     orbit("symmetry_1", [](Orbit& o) { o.symmetry = 1; });
     orbit("symmetry_huge", [](Orbit& o) { o.symmetry = huge; });
+    orbit("cycle_of_nothing", [](Orbit& o) { o.cycle = 0; });
+    orbit("cycle_of_all", [](Orbit& o) { o.cycle = 1; });
+    orbit("cycle_huge", [](Orbit& o) { o.cycle = huge; });
     orbit("parameters", wrong_lengths(5), [](Orbit& o, std::size_t n) { o.parameters.resize(n); });
     orbit("start", wrong_lengths(3), [](Orbit& o, std::size_t n) { o.starts[0].resize(n); });
     orbit("parameter", not_finite(), [](Orbit& o, double v) { o.parameters[0] = v; });

@@ -140,6 +140,7 @@ inline constexpr std::string_view accepted[] = {
     "image_of_duration_*",
     "image_of_parameter*",
     "image_of_symmetry_*",
+    "image_of_cycle_*",
     "image_of_mode_size", // the symmetric model has one mode more
     "image_of_section_size",
     "end_name_mode_*",

@@ -19,6 +19,9 @@ struct Orbit {
     /// Set for a half orbit: index of the model's symmetry that maps the end of the last segment to the start of the
     /// first. The second half of the orbit is the image of the segments.
     std::optional<std::size_t> symmetry;
+    /// Set for an orbit that is homoclinic to a cycle, and does not close: number of segments of the cycle, which the
+    /// first and the last segments repeat. It begins beside the cycle, leaves it, and comes back beside it.
+    std::optional<std::size_t> cycle{};
 
     std::size_t segments() const { return signature.size(); }
     /// Returns the sum of the durations: the time after which the start, or its image, recurs.
