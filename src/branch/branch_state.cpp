@@ -34,6 +34,8 @@ BranchState::BranchState(const System& system, const Orbit& candidate, const Bra
     settings_.validate(model);
     validate_orbit(model, candidate);
     require_kept_homoclinic(candidate, settings);
+    if (candidate.cycle) // the model's own motion, which leads to other signatures, does not stay beside the cycle
+        settings_.reorder = false;
     if (is_outside(settings, candidate.parameters[settings.parameter.place()]))
         throw InputError(fmt::format("the orbit's {} = {} lies outside the branch's bounds",
                                      model.independent_parameters()[settings.parameter.place()],
@@ -286,7 +288,7 @@ bool BranchState::start_in_family(std::span<const double> u) {
 bool BranchState::pieces_need_renewal() {
     const OrbitEquations& equations = problem_->equations();
     const OrbitLayout& layout = equations.layout();
-    if (equations.contacts_need_renewal(problem_->evaluation()) || distances_need_renewal())
+    if (equations.contacts_need_renewal(problem_->evaluation()) || distances_need_renewal() || turns_need_renewal())
         return true;
     for (std::size_t k = 0; k < layout.pieces(); ++k) {
         const OrbitEvaluation& at = problem_->evaluation();
@@ -330,13 +332,57 @@ OrbitDirection BranchState::across_cuts(const Orbit& orbit, OrbitDirection direc
 /// True when a homoclinic orbit should begin and end at other distances from its saddle.
 bool BranchState::distances_need_renewal() const {
     const HomoclinicEnds* const ends = problem_->equations().homoclinic_ends();
+    return ends && !renewal_was_tried() && graze::distances_need_renewal(*ends);
+}
+
+/// True when an orbit that is homoclinic to a cycle should have other turns beside it.
+bool BranchState::turns_need_renewal() const {
+    const CycleEnds* const ends = problem_->equations().cycle_ends();
+    return ends && !renewal_was_tried() &&
+           graze::turns_need_renewal(*ends, orbit(), problem_->evaluation().pieces.back().after);
+}
+
+/// True shortly after a homoclinic orbit could not begin and end at other distances.
+bool BranchState::renewal_was_tried() const {
     constexpr double pause = 10; // steps of the greatest length
-    const bool tried =
-        arclength(continuation_->point().arclength) < not_renewed_at_ + pause * settings_.continuation.largest_step;
-    return ends && !tried && graze::distances_need_renewal(*ends);
+    return arclength(continuation_->point().arclength) < not_renewed_at_ + pause * settings_.continuation.largest_step;
+}
+
+/// Continues with other turns beside the cycle. @return false, with nothing changed, where that does not start
+bool BranchState::renew_turns(const BranchPoint& from) {
+    const CycleEnds& ends = *problem_->equations().cycle_ends();
+    const Orbit& orbit = from.solution.orbit;
+    const TurnsChanged changed = with_suitable_turns(ends, orbit, problem_->evaluation().pieces.back().after);
+    return replace_orbit(from, {changed.orbit, changed.of(from.tangent)}, Guess::inexact);
+}
+
+/// Newton's method across a direction. @return false where it does not converge
+bool BranchState::correct(std::vector<double>& u, const OrbitDirection& direction) {
+    constexpr int iterations = 8;
+    constexpr double solved = 1e-8, farthest = 0.1; // corrections in units of the scales
+    std::vector<double> step(u.size());
+    double before = farthest;
+    for (int i = 0; i < iterations; ++i) {
+        if (!problem_->evaluate(u) ||
+            !problem_->solve(problem_->row_of(problem_->unknowns_of(direction)), 0, false, step, nullptr))
+            return false;
+        const double size = vector_of(step).cwiseQuotient(vector_of(problem_->scales())).cwiseAbs().maxCoeff();
+        if (!(size < farthest))
+            return false;
+        if (size <= solved && size >= 0.5 * before) // corrections that do not shrink are round-off
+            return true;
+        entries_of(u) += vector_of(step);
+        before = size;
+    }
+    return before <= solved;
 }
 
 void BranchState::renew_pieces(const BranchPoint& from) {
+    if (turns_need_renewal()) {
+        if (!renew_turns(from))
+            not_renewed_at_ = from.arclength; // keep the old ones for some time
+        return;
+    }
     if (distances_need_renewal()) {
         const auto other = at_suitable_distances(*this, from.solution.orbit, from.tangent);
         if (!other || !restart(*other, from.tangent, from.arclength))
@@ -354,7 +400,7 @@ void BranchState::renew_pieces(const BranchPoint& from) {
 
 /// Continues from a solution with new equations. @return false when the continuation does not start there; then nothing
 /// changes
-bool BranchState::restart(const Orbit& orbit, const OrbitDirection& direction, double arclength) {
+bool BranchState::restart(const Orbit& orbit, const OrbitDirection& direction, double arclength, Guess guess) {
     const double length = continuation_->next_step();
     const std::optional<SpecialPoint> kept = settings_.kept;
     std::shared_ptr<OrbitProblem> old = std::move(problem_);
@@ -364,8 +410,8 @@ bool BranchState::restart(const Orbit& orbit, const OrbitDirection& direction, d
                                                           std::make_move_iterator(held_.end()));
     held_.erase(first, held_.end());
     const bool holds = make_problem(orbit);
-    const std::vector<double> u = problem_->unknowns_of(orbit);
-    if (!holds || !problem_->evaluate(u) ||
+    std::vector<double> u = problem_->unknowns_of(orbit);
+    if (!holds || (guess == Guess::inexact && !correct(u, direction)) || !problem_->evaluate(u) ||
         !continuation_->start_at(u, problem_->row_of(problem_->unknowns_of(direction)))) {
         problem_ = std::move(old);
         continuation_ = std::move(old_continuation);
@@ -395,13 +441,13 @@ bool BranchState::leave_sections(const BranchPoint& from) {
     return uncut && uncut->orbit.signature != orbit.signature && replace_orbit(from, *uncut);
 }
 
-bool BranchState::replace_orbit(const BranchPoint& from, const UncutOrbit& same) {
+bool BranchState::replace_orbit(const BranchPoint& from, const UncutOrbit& same, Guess guess) {
     const Orbit& orbit = from.solution.orbit;
     if (needs_sections(orbit, same.orbit))
         return false;
     if (monitors_)
         monitors_->set_signature(same.orbit.signature);
-    if (restart(same.orbit, same.direction, from.arclength))
+    if (restart(same.orbit, same.direction, from.arclength, guess))
         return true;
     if (monitors_)
         monitors_->set_signature(orbit.signature);

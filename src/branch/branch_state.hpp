@@ -82,7 +82,9 @@ public:
     bool leave_sections(const BranchPoint& from);
     /// Continues from a point with another representation of its orbit. @return false, with nothing changed, where the
     /// continuation does not start or the sections are needed
-    bool replace_orbit(const BranchPoint& from, const UncutOrbit& same);
+    bool replace_orbit(const BranchPoint& from, const UncutOrbit& same) {
+        return replace_orbit(from, same, Guess::solution);
+    }
     /// The same before the start of the branch. @return false also where the orbit has no sections
     bool begin_without_sections(const Orbit& candidate);
     /// Continues along another branch or signature. @throws InputError when the continuation does not start there
@@ -105,9 +107,15 @@ private:
     bool find_touch(const Orbit& orbit);
     bool needs_sections(const Orbit& orbit, const Orbit& without) const;
     OrbitDirection across_cuts(const Orbit& orbit, OrbitDirection direction) const;
-    bool restart(const Orbit& orbit, const OrbitDirection& direction, double arclength);
+    enum class Guess { solution, inexact };
+    bool replace_orbit(const BranchPoint& from, const UncutOrbit& same, Guess guess);
+    bool restart(const Orbit& orbit, const OrbitDirection& direction, double arclength, Guess guess = Guess::solution);
+    bool correct(std::vector<double>& u, const OrbitDirection& direction);
     bool make_problem(const Orbit& orbit);
     bool distances_need_renewal() const;
+    bool turns_need_renewal() const;
+    bool renewal_was_tried() const;
+    bool renew_turns(const BranchPoint& from);
 
     BranchSettings settings_;
     Simulation simulation_;

@@ -59,8 +59,8 @@ bool equilibrium_satisfies(const SpecialPoint& point, PointType type) {
 bool satisfies(const SpecialPoint& point, PointType type) {
     if (is_homoclinic(point.solution.orbit.signature))
         return type == PointType::homoclinic;
-    if (point.type == type)
-        return true;
+    if (point.type == type || point.solution.orbit.cycle) // of which the multipliers are not its own
+        return point.type == type;
     if (is_rest(point.solution.orbit.signature))
         return equilibrium_satisfies(point, type);
     const bool half = point.solution.orbit.symmetry.has_value();
@@ -100,9 +100,10 @@ std::string multipliers_in_words(const SpecialPoint& point) {
         texts.push_back(one.imag() == 0 ? fmt::format("{:.6g}", one.real())
                                         : fmt::format("{:.6g}{:+.6g}i", one.real(), one.imag()));
     return fmt::format("{} are {}",
-                       homoclinic ? "the eigenvalues of its saddle"
-                       : rests    ? "its eigenvalues"
-                                  : "its multipliers",
+                       homoclinic                   ? "the eigenvalues of its saddle"
+                       : rests                      ? "its eigenvalues"
+                       : point.solution.orbit.cycle ? "the multipliers of its cycle"
+                                                    : "its multipliers",
                        fmt::join(texts, ", "));
 }
 

@@ -287,7 +287,8 @@ void hold_what_is_left(BranchSettings& settings, const System& system, Orbit orb
 
 std::optional<Family> Family::of(const System& system, const Orbit& candidate, const BranchSettings& settings) {
     const bool may_conserve = !system.model().conserved.empty();
-    if (settings.unfolded > 0 || (!settings.family && !may_conserve) || is_homoclinic(candidate.signature))
+    if (settings.unfolded > 0 || (!settings.family && !may_conserve) || is_homoclinic(candidate.signature) ||
+        candidate.cycle)
         return std::nullopt;
     settings.validate(system.model());
     validate_orbit(system.model(), candidate);

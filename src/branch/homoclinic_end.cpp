@@ -61,7 +61,7 @@ public:
 
 bool HomoclinicEnd::is_sought(const BranchSettings& settings, const BranchPoint& here) {
     const std::vector<double>& rises = here.tangent.durations;
-    return !settings.kept && !settings.family && settings.free.empty() &&
+    return !settings.kept && !settings.family && settings.free.empty() && !here.solution.orbit.cycle &&
            std::accumulate(rises.begin(), rises.end(), 0.0) > 0;
 }
 

@@ -6,6 +6,7 @@
 #include "branch/normal_form.hpp"
 #include "branch/other_branch.hpp"
 #include "branch/singular_condition.hpp"
+#include "graze/branch/curve_start.hpp"
 #include "orbit/eigen_index.hpp"
 
 #include <fmt/format.h>
@@ -159,7 +160,8 @@ void test_fold(const TestedPoint& point, std::vector<BranchTest>& tests) {
         test.value = point.tangent[place];
         test.noise = least_rise * point.at.scales[index(place)];
     } else {
-        const bool kept = is_kept(point, PointType::fold) || is_kept(point, PointType::branch_point);
+        const bool kept = is_kept(point, PointType::fold) || is_kept(point, PointType::branch_point) ||
+                          is_kept(point, PointType::homoclinic_tangency);
         const CyclicSystem::Determinant determinant = point.at.system.periodic_determinant();
         test.value = kept ? not_a_number : determinant.value;
         test.noise = determinant.noise;
@@ -179,6 +181,18 @@ bool confirm_fold(BranchState& state, SpecialPoint& special, const BranchTest&) 
 std::unique_ptr<OrbitCondition> condition_of_fold(const OrbitEquations& equations, const OrbitEvaluation& at,
                                                   const SpecialPoint&) {
     return SingularCondition::of_multiplier(equations, at, 1);
+}
+
+// Tangencies of manifolds: folds of the equations of orbits that are homoclinic to a cycle. No multiplier is 1 there.
+
+void test_homoclinic_tangency(const TestedPoint& point, std::vector<BranchTest>& tests) {
+    test_fold(point, tests);
+    tests.back().type = PointType::homoclinic_tangency;
+}
+
+bool confirm_homoclinic_tangency(BranchState& state, SpecialPoint& special, const BranchTest&) {
+    special.detail = multipliers_in_words(special);
+    return special.located && state.settings().unfolded == 0;
 }
 
 // Flips. A multiplier -1 of the half map of a symmetric orbit breaks the symmetry instead of doubling the period.

@@ -6,9 +6,9 @@ namespace graze {
 
 // Functions of points with multipliers on the unit circle, and of their degeneracies: see PointRule.
 
-PointRule::Test test_fold, test_flip, test_asymmetry, test_branch_point, test_torus;
-PointRule::Confirm confirm_fold, confirm_flip, confirm_branch_point, confirm_torus, confirm_beside_flip,
-    confirm_with_torus, confirm_resonance, confirm_cusp;
+PointRule::Test test_fold, test_homoclinic_tangency, test_flip, test_asymmetry, test_branch_point, test_torus;
+PointRule::Confirm confirm_fold, confirm_homoclinic_tangency, confirm_flip, confirm_branch_point, confirm_torus,
+    confirm_beside_flip, confirm_with_torus, confirm_resonance, confirm_cusp;
 PointRule::Condition condition_of_fold, condition_of_flip, condition_of_torus;
 PointRule::Leave leave_flip, leave_asymmetry, leave_branch_point;
 

@@ -137,6 +137,11 @@ constexpr std::array table{
     PointRule{.kind = kind(PointType::generalised_hopf, "GH", "generalised Hopf point", may_stop, 11)},
     PointRule{.kind = kind(PointType::homoclinic, "HC", "homoclinic orbit", changes | may_be_kept, 3),
               .condition = condition_of_homoclinic},
+    PointRule{
+        .kind = kind(PointType::homoclinic_tangency, "HT", "homoclinic tangency", changes | may_stop | may_be_kept, 7),
+        .test = test_homoclinic_tangency,
+        .confirm = confirm_homoclinic_tangency,
+        .condition = condition_of_fold},
     PointRule{.kind = kind(PointType::extremum, "EX", "extremum", may_stop, 1),
               .test = test_extremum,
               .confirm = confirm_extremum},
@@ -256,8 +261,11 @@ std::optional<OrbitMinimum> nearest_touch(const Certificate& certificate, std::s
 
 std::vector<BranchTest> branch_tests(const TestedPoint& point) {
     // A homoclinic orbit has no multipliers, but contacts that may change, and quantities with bounds and extrema.
-    const bool homoclinic = point.equations.homoclinic_ends() != nullptr;
-    const auto applies = [homoclinic](const PointKind& kind) {
+    const bool to_cycle = point.equations.cycle_ends() != nullptr,
+               homoclinic = to_cycle || point.equations.homoclinic_ends() != nullptr;
+    const auto applies = [homoclinic, to_cycle](const PointKind& kind) {
+        if (kind.type == PointType::homoclinic_tangency)
+            return to_cycle;
         return !homoclinic || kind.limits || kind.type == PointType::extremum || kind.type == PointType::bound ||
                kind.type == PointType::crossing;
     };

@@ -155,7 +155,7 @@ void drop_folds_at_branch_points(std::vector<SpecialPoint>& found, double length
 
 bool is_degenerate(BranchState& state, const Orbit& orbit, double same) {
     const Model& model = state.model();
-    if (orbit.symmetry || is_homoclinic(orbit.signature))
+    if (orbit.symmetry || orbit.cycle || is_homoclinic(orbit.signature))
         return false;
     if (half_of(state.problem().equations(), orbit, same))
         return true;
@@ -184,7 +184,7 @@ std::vector<std::vector<double>> differences_of_halves(BranchState& state, const
     const Model& model = state.model();
     const std::size_t half = orbit.segments() / 2;
     std::vector<std::vector<double>> all;
-    if (orbit.symmetry || orbit.segments() % 2 != 0 || is_homoclinic(orbit.signature))
+    if (orbit.symmetry || orbit.segments() % 2 != 0 || orbit.cycle || is_homoclinic(orbit.signature))
         return all;
     const auto add = [&](const std::vector<std::size_t>* modes, const auto& image) {
         std::vector<double> differences;

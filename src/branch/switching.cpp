@@ -36,6 +36,9 @@ std::vector<BranchStart> branches_at(const System& system, const SpecialPoint& p
         require_finite(point.time, "the time of the point");
     }
     validate_orbit(model, point.solution.orbit);
+    if (point.solution.orbit.cycle)
+        throw InputError("no other branch is followed from an orbit that is homoclinic to a cycle",
+                         "follow the orbit itself: onto = \"same\"");
     if (point.type == PointType::branch_point && is_rest(point.solution.orbit.signature))
         return equilibria_at_branch_point(system, point, settings);
     return rule.leave(system, point, settings);

@@ -48,6 +48,7 @@ enum class PointType {
     double_hopf,          ///< HH: on a curve of Hopf points: four eigenvalues are imaginary
     generalised_hopf,     ///< GH: on a curve of Hopf points: criticality changes (Bautin)
     homoclinic,           ///< HC: the period grows without bound: the orbit becomes homoclinic to a saddle
+    homoclinic_tangency,  ///< HT: of orbits homoclinic to a cycle: its stable and unstable manifold touch, as at a fold
     extremum,             ///< EX: extremum of the period, where that is free; or of a parameter, on a curve
     bound,                ///< BD: a given bound is reached
     crossing,             ///< UZ: a monitor takes a requested value
