@@ -32,6 +32,7 @@ const words: Record<string, string> = {
   HH: "double Hopf point",
   GH: "generalised Hopf point",
   HC: "homoclinic orbit",
+  HT: "homoclinic tangency",
   EX: "extremum",
   BD: "bound",
   UZ: "crossing",

@@ -94,6 +94,7 @@ const byType: Record<string, Glyph> = {
   HH: filled(star(4, 0.45)),
   GH: open(down, dot),
   HC: open(round(0.9) + cross),
+  HT: open(round(0.9) + upright),
   EX: byNumber[1],
   UZ: byNumber[2],
 };

@@ -83,7 +83,8 @@ class Point(Fixed, PointAnalyses):
                progress: Progress = None, **keys: Any) -> Branch:
         """The branch through this point along a parameter: `follow(omega=(2, 4))`, or along={"omega": (2, 4)}.
 
-        onto: "same", "other" or "twin" (chosen by the type of the point). Raises RunFailed where no orbit is found.
+        onto: "same", "other" or "twin" (chosen by the type of the point), or "homoclinic": orbits that leave this one, a
+        saddle, and come back. Raises RunFailed where no orbit is found.
         """
         along, keys = separated("continue", along, keys, self._run._model, "follow()")
         return self._child("continue", {"along": along, **keys}, "follow()", Ways(threads, progress), onto)

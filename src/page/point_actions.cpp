@@ -145,6 +145,10 @@ private:
 
     void find_of_branch() {
         const PointKind& kind = kind_of(type_);
+        if (origin_.orbit->point.solution.orbit.cycle) {
+            find_of_homoclinic(kind);
+            return;
+        }
         if (type_ == PointType::hopf && rests_)
             add("switch", "The cycles", "the cycles that begin at this Hopf point", 1, "other");
         else if (type_ == PointType::hopf)
@@ -179,6 +183,15 @@ private:
         if (!origin_.model.symmetries.empty() && !orbit.symmetry && !orbit.signature.empty() &&
             ends_by_transition(orbit.signature.back()))
             add("twin", "Symmetric image", "the branch of the symmetric image of this orbit", 1, "twin");
+    }
+
+    /// Of an orbit that is homoclinic to a cycle: no other branch leaves it.
+    void find_of_homoclinic(const PointKind& kind) {
+        if (kind.may_be_kept)
+            add("curve", "Curve of such points", fmt::format("where this {} is as two parameters change", kind.name),
+                2);
+        add("follow", "Follow", "the same branch along this parameter, with other bounds if wanted", 1, "same");
+        add_another("the branch of this orbit along another parameter");
     }
 
     /// Curves that meet here, of points of other types.

@@ -157,6 +157,15 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
                  if (context.model->symmetries[i].name == name)
                      r.point.solution.orbit.symmetry = i;
          }},
+        {added({"cycle_segments", ColumnType::whole, ColumnUnit::none, true}),
+         [](const Context&, const Record& r, CellWriter& cell) {
+             const auto& cycle = r.point.solution.orbit.cycle;
+             cycle ? cell.whole(*cycle) : cell.nothing();
+         },
+         [](const Context&, Record& r, CellReader& cell) {
+             if (!cell.is_nothing())
+                 r.point.solution.orbit.cycle = cell.whole();
+         }},
         truth_column(shown("stable"), [](auto& r) { return &r.stable; }),
         {added({"unstable", ColumnType::whole, ColumnUnit::none, true}), // and this from the multipliers
          [](const Context&, const Record& r, CellWriter& cell) {

@@ -98,7 +98,8 @@ public:
             throw_contradiction(path_, fmt::format("orbit {} of run '{}'", static_cast<std::int64_t>(record.number),
                                                    run_->name)); // a changed file may have negative numbers
         if (solution.orbit.segments() == 0)
-            solution.outcome = OrbitOutcome::not_converged, solution.orbit.symmetry.reset();
+            solution.outcome = OrbitOutcome::not_converged, solution.orbit.symmetry.reset(),
+            solution.orbit.cycle.reset();
         const Model& model = *context_.model;
         solution.multipliers = multipliers_.of_point(*run_, record.number);
         solution.half_multipliers = half_multipliers_.of_point(*run_, record.number);

@@ -6,6 +6,7 @@
 #include "graze/branch/impacting_curve.hpp"
 #include "graze/branch/switching.hpp"
 #include "graze/orbit/orbit_file.hpp"
+#include "orbit/cycle_homoclinics.hpp"
 #include "study/branch_part.hpp"
 #include "study/equilibrium_run.hpp"
 #include "study/ladder_run.hpp"
@@ -176,8 +177,27 @@ std::vector<BranchPart> parts_of_curve(const StudyRun& run, const System& system
     return parts;
 }
 
+/// Both directions along the branches of orbits that are homoclinic to a cycle; none when interrupted.
+std::vector<BranchPart> parts_of_homoclinics(const StudyRun& run, const System& system, const Orbit& cycle,
+                                             const RunnerOptions& options) {
+    const std::vector<OrbitSolution> found = at_place(run.start->place, run, [&] {
+        return homoclinic_orbits(system, with_parameters_of_run(run, cycle), run.branch().settings.orbit,
+                                 options.interrupted);
+    });
+    if (options.interrupted && options.interrupted())
+        return {};
+    std::vector<BranchPart> parts;
+    for (std::size_t i = 0; i < found.size(); ++i)
+        for (BranchPart part : both_directions(run, found[i].orbit)) {
+            if (found.size() > 1)
+                part.name = fmt::format("{} {}", i + 1, part.name);
+            parts.push_back(std::move(part));
+        }
+    return parts;
+}
+
 std::vector<BranchPart> parts_from_orbit(const StudyRun& run, const System& system, const StudyRun& parent,
-                                         const OrbitRecord& record) {
+                                         const OrbitRecord& record, const RunnerOptions& options) {
     const StartFrom& start = *run.start;
     const SpecialPoint& point = record.point;
     if (point.type == PointType::chatter)
@@ -189,12 +209,19 @@ std::vector<BranchPart> parts_from_orbit(const StudyRun& run, const System& syst
         throw InputError(start.place,
                          "a homoclinic orbit exists at one value of a parameter only: no branch begins there",
                          "follow it in two parameters: kind = \"curve\", free = { PARAMETER = [..] }");
+    if (start.onto == "homoclinic")
+        return parts_of_homoclinics(run, system, point.solution.orbit, options);
     const bool same_parameter = (parent.kind == RunKind::follow || parent.kind == RunKind::ladder) &&
                                 parent.branch().settings.parameter == run.branch().settings.parameter &&
                                 parent.branch().settings.family == run.branch().settings.family;
     std::string onto = start.onto;
     if (onto.empty())
-        onto = kind_of(point.type).has_bifurcating_branch && same_parameter ? "other" : "same";
+        onto = kind_of(point.type).has_bifurcating_branch && same_parameter && !point.solution.orbit.cycle ? "other"
+                                                                                                           : "same";
+    if (point.solution.orbit.cycle && onto != "same")
+        throw InputError(start.place,
+                         fmt::format("no branch of type \"{}\" leaves an orbit that is homoclinic to a cycle", onto),
+                         "follow the orbit itself: onto = \"same\"");
     if (onto == "twin")
         return both_directions(
             run, at_place(start.place, run, [&] { return symmetric_image(run, system, point.solution.orbit); }));
@@ -219,7 +246,7 @@ std::vector<BranchPart> parts_of(const Study& study, const StudyRun& run, const 
                                  const std::optional<OrbitRecord>& first, const RunnerOptions& options) {
     const BranchRequest& branch = run.branch();
     if (first)
-        return parts_from_orbit(run, system, run_named(study, run.start->run), *first);
+        return parts_from_orbit(run, system, run_named(study, run.start->run), *first, options);
     if (run.start) {
         const StartPoint start =
             file.with([&](const ResultFile& results) { return point_to_start_from(run, study, results); });

@@ -168,7 +168,7 @@ namespace {
 /// Which branch through a point, or which curve.
 std::vector<std::string> words_of_onto() {
     std::vector<std::string> names = short_names_of_points(&PointKind::may_be_kept);
-    names.insert(names.begin(), {"same", "other", "twin"});
+    names.insert(names.begin(), {"same", "other", "twin", "homoclinic"});
     return names;
 }
 

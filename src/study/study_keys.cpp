@@ -196,7 +196,7 @@ void check_start(const StudyReader& reader, const StudyRun& run, const StudyRun&
             run.branch().keeps_point() ? "leave it out, or name the kind, such as \"SN\"" : "leave it out");
     if (!curve && of_curves)
         fail_start(start, fmt::format("`onto = \"{}\"` chooses a curve, and this is none", start.onto),
-                   "follow it with kind = \"curve\", or choose \"same\", \"other\" or \"twin\"");
+                   "follow it with kind = \"curve\", or choose \"same\", \"other\", \"twin\" or \"homoclinic\"");
     if (run.is_branch() && parent.is_branch()) {
         const std::string leave = "leave it out";
         refuse_any(reader, keys, of_settling, "no orbit is settled on", leave);

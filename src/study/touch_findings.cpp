@@ -30,6 +30,8 @@ std::vector<ParameterId> moving_parameters(const StudyRun& run) {
 } // namespace
 
 std::optional<TouchFindings> findings_at(const StudyRun& run, const SpecialPoint& point) {
+    if (point.solution.orbit.cycle) // whose motion does not return to the touch
+        return std::nullopt;
     const System system(run.model);
     const auto touch = touch_at(run, system, point);
     if (!touch)

@@ -127,7 +127,7 @@ export const cases = [
     async (bench) => {
       const { glyphOf } = await load(bench, "symbols");
       const types =
-        "SN PD NS BP SB GR DG DZ EE GU CP GF GT R1 R2 R3 R4 VS DF DP ZA FP FT PT CH HB BE BT ZH HH GH HC EX UZ".split(
+        "SN PD NS BP SB GR DG DZ EE GU CP GF GT R1 R2 R3 R4 VS DF DP ZA FP FT PT CH HB BE BT ZH HH GH HC HT EX UZ".split(
           " ",
         );
       const looks = types.map((type) => JSON.stringify(glyphOf(undefined, type)));
