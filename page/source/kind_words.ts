@@ -33,6 +33,7 @@ const words: Record<string, string> = {
   GH: "generalised Hopf point",
   HC: "homoclinic orbit",
   HT: "homoclinic tangency",
+  PL: "phase locking",
   EX: "extremum",
   BD: "bound",
   UZ: "crossing",

@@ -95,6 +95,7 @@ const byType: Record<string, Glyph> = {
   GH: open(down, dot),
   HC: open(round(0.9) + cross),
   HT: open(round(0.9) + upright),
+  PL: filled(star(6, 0.5)),
   EX: byNumber[1],
   UZ: byNumber[2],
 };

@@ -270,6 +270,7 @@ class Ladder(Branch):
 
 class Tori(Branch):
     """The tori of quasi-periodic motion that begin at a torus point. `points` has a row for each, with its
-    `rotation_number`; the orbit of a point is one return of a motion on it, which does not close."""
+    `rotation_number`; the orbit of a point is one return of a motion on it, which does not close. Points `PL`, where
+    intervals begin and end in which tori lock, are orbits of several returns, without a rotation number."""
 
     kind = "torus"

@@ -142,6 +142,7 @@ constexpr std::array table{
         .test = test_homoclinic_tangency,
         .confirm = confirm_homoclinic_tangency,
         .condition = condition_of_fold},
+    PointRule{.kind = kind(PointType::locking, "PL", "phase locking", changes, 6)},
     PointRule{.kind = kind(PointType::extremum, "EX", "extremum", may_stop, 1),
               .test = test_extremum,
               .confirm = confirm_extremum},

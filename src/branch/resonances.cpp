@@ -9,15 +9,16 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t largest_denominator = 8;
+/// Some resonance with a greater denominator is near any rotation number.
+constexpr std::size_t largest_near = 8;
 
 } // namespace
 
 std::optional<Resonance> resonance_near(double rotation, double distance) {
-    for (std::size_t q = 1; q <= largest_denominator; ++q) {
+    for (std::size_t q = 1; q <= largest_near; ++q) {
         const double numerator = std::round(rotation * static_cast<double>(q));
-        if (numerator >= 0 && std::abs(rotation - numerator / static_cast<double>(q)) <= distance)
-            return Resonance{static_cast<std::size_t>(numerator), q};
+        if (std::abs(rotation - numerator / static_cast<double>(q)) <= distance)
+            return Resonance{static_cast<long>(numerator), q};
     }
     return std::nullopt;
 }
@@ -25,12 +26,12 @@ std::optional<Resonance> resonance_near(double rotation, double distance) {
 std::vector<Resonance> resonances_between(double from, double to) {
     std::vector<Resonance> passed;
     const double least = std::min(from, to), greatest = std::max(from, to);
-    for (std::size_t q = 1; q <= largest_denominator; ++q)
-        for (auto p = static_cast<std::size_t>(std::max(std::ceil(least * static_cast<double>(q)), 0.0));; ++p) {
+    for (std::size_t q = 1; q <= Resonance::largest; ++q)
+        for (auto p = static_cast<long>(std::ceil(least * static_cast<double>(q)));; ++p) {
             const Resonance one{p, q};
             if (!(one.value() <= greatest))
                 break;
-            if (std::gcd(p, q) == 1 && one.value() != from)
+            if (std::gcd(p, static_cast<long>(q)) == 1 && one.value() != from)
                 passed.push_back(one);
         }
     std::ranges::sort(passed, [&](const Resonance& one, const Resonance& other) {

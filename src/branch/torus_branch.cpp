@@ -2,7 +2,9 @@
 
 #include "base/enumerator_name.hpp"
 #include "branch/bounds.hpp"
+#include "branch/phase_locking.hpp"
 #include "branch/resonances.hpp"
+#include "branch/tongue_crossing.hpp"
 #include "branch/torus_amplitude.hpp"
 #include "branch/torus_facts.hpp"
 #include "branch/turning_pair.hpp"
@@ -97,6 +99,7 @@ public:
     bool start();
     bool step();
     const TorusPoint& point() const { return point_; }
+    const std::vector<PhaseLocking>& last_locking() const { return last_locking_; }
     TorusOutcome outcome() const { return outcome_; }
     const std::string& detail() const { return detail_; }
 
@@ -125,18 +128,22 @@ private:
     bool end_at_bound(double length, double beyond);
     bool end_at_grazing(double length, std::string reason);
     bool take(const ContinuationPoint& at, TorusPoint next);
+    bool cross_tongue(const Torus& from, bool is_first);
+    void scale_parameter();
 
     Simulation simulation_;
     BranchSettings settings_;
     TorusResolution resolution_;
     TorusSetting setting_;
     std::unique_ptr<OrbitMonitors> monitors_;
+    std::unique_ptr<LockingSearch> lockings_;
     std::shared_ptr<TorusProblem> problem_;
     /// Unknowns from which the next step is made, its direction, and the circle to which the phase condition refers.
     std::vector<double> origin_, direction_, reference_;
     double next_length_ = 0, first_parameter_ = 0;
     bool unresolved_ = false; ///< the last attempt needed more harmonics than are allowed
     TorusPoint point_;
+    std::vector<PhaseLocking> last_locking_;
     TorusOutcome outcome_ = TorusOutcome::no_start;
     std::string detail_;
 };
@@ -164,6 +171,7 @@ void TorusBranch::Follower::set_up(const Orbit& orbit) {
     const TurningPair pair = turning_pair(scales.cwiseInverse().asDiagonal() *
                                           image->derivatives(setting_.active, setting_.active) * scales.asDiagonal());
     scale_by_amplitude(setting_, *image, parameter, pair);
+    lockings_ = std::make_unique<LockingSearch>(simulation_, settings_, setting_);
     problem_ = std::make_shared<TorusProblem>(setting_, std::min(harmonics, resolution_.harmonics));
     origin_.assign(problem_->unknowns(), 0.0);
     direction_ = origin_;
@@ -239,15 +247,75 @@ TorusPoint TorusBranch::Follower::described(const ContinuationPoint& at) const {
 }
 
 bool TorusBranch::Follower::take(const ContinuationPoint& at, TorusPoint next) {
-    next.passed = resonances_between(origin_[problem_->rotation_place()], next.torus.rotation);
+    if (next.passed.empty())
+        next.passed = lockings_->between(problem_->torus_of(origin_), next.torus);
     point_ = std::move(next);
     origin_ = reference_ = at.u;
     direction_ = at.tangent;
-    // A parameter that is zero at the orbit has the size of its change.
-    const double change = std::abs(point_.parameter - first_parameter_);
-    problem_->set_parameter_scale(
-        std::max({problem_->scales()[problem_->parameter_place()], std::abs(point_.parameter), change}));
+    scale_parameter();
     return true;
+}
+
+/// A parameter that is zero at the orbit has the size of its change.
+void TorusBranch::Follower::scale_parameter() {
+    const double change = std::abs(point_.parameter - first_parameter_),
+                 scale =
+                     std::max({problem_->scales()[problem_->parameter_place()], std::abs(point_.parameter), change});
+    problem_->set_parameter_scale(scale);
+    lockings_->set_parameter_scale(scale);
+}
+
+/// Goes on beyond a tongue that the branch has entered. @return false where it is none, or has no tori beyond
+bool TorusBranch::Follower::cross_tongue(const Torus& from, bool is_first) {
+    const double turning = is_first ? 0 : direction_[problem_->rotation_place()],
+                 direction = is_first ? 0 : direction_[problem_->parameter_place()];
+    // The rotation number of the branch, continued along its tangent.
+    const auto forecast = [&](const Resonance& resonance) -> std::optional<Torus> {
+        constexpr double farthest = 1; // in scaled unknowns
+        const double distance = (resonance.value() - from.rotation) / turning;
+        if (is_first || !(distance > 0 && distance < farthest))
+            return std::nullopt;
+        std::vector<double> there = origin_;
+        entries_of(there) += distance * vector_of(direction_);
+        return problem_->torus_of(there);
+    };
+    auto tongue =
+        TongueCrossing(*lockings_, settings_, resolution_).cross(from, *problem_, turning, direction, forecast);
+    if (!tongue)
+        return false;
+    const PhaseLocking& locking = tongue->locking;
+    const auto without_torus = [&](const std::string& why) {
+        detail_ = fmt::format("the torus locks at the rotation number {}/{}: {}", locking.resonance.numerator,
+                              locking.resonance.denominator, why);
+        last_locking_ = {locking};
+        return false;
+    };
+    if (!tongue->equations)
+        return without_torus(tongue->problem);
+    const auto before = std::exchange(problem_, tongue->equations);
+    tongue->beyond.arclength =
+        point_.arclength + std::abs(tongue->beyond.u[problem_->parameter_place()] - lockings_->parameter_of(from)) /
+                               problem_->scales()[problem_->parameter_place()];
+    TorusPoint next = described(tongue->beyond);
+    if (!next.facts.admissible) {
+        problem_ = before;
+        return without_torus("beyond, " + next.facts.reason);
+    }
+    // Other resonances up to the tongue, and beyond it.
+    const auto at_tongue = [&](Torus torus, const SpecialPoint& end) {
+        torus.rotation = locking.resonance.value();
+        torus.parameters[settings_.parameter.place()] = end.parameter;
+        return torus;
+    };
+    std::vector<PhaseLocking> passed = lockings_->between(from, at_tongue(from, locking.ends.front()));
+    std::erase_if(passed, [&](const PhaseLocking& one) { return one.resonance == locking.resonance; });
+    passed.push_back(locking);
+    const auto further = lockings_->between(at_tongue(next.torus, locking.ends.back()), next.torus);
+    passed.insert(passed.end(), further.begin(), further.end());
+    next.passed = std::move(passed);
+    outcome_ = TorusOutcome::going;
+    next_length_ = settings_.continuation.first_step;
+    return take(tongue->beyond, std::move(next));
 }
 
 bool TorusBranch::Follower::start() {
@@ -267,8 +335,15 @@ bool TorusBranch::Follower::start() {
         outcome_ = TorusOutcome::going;
         return take(*there, std::move(small));
     }
+    std::vector<double> small = origin_;
+    entries_of(small) += first / problem_->length_of(direction_) * vector_of(direction_);
+    if (cross_tongue(problem_->torus_of(small), true))
+        return true;
     std::string why = "Newton's method did not converge to small tori";
-    if (const auto strong = resonance_near(origin_[problem_->rotation_place()], 0.01); strong && strong->is_strong())
+    if (!detail_.empty())
+        why += "; " + detail_;
+    else if (const auto strong = resonance_near(origin_[problem_->rotation_place()], 0.01);
+             strong && strong->is_strong())
         why += fmt::format("; the point is near the strong resonance {}/{}", strong->numerator, strong->denominator);
     return end(TorusOutcome::no_start, why);
 }
@@ -298,6 +373,8 @@ std::optional<ContinuationPoint> TorusBranch::Follower::next_point(double& lengt
 }
 
 bool TorusBranch::Follower::end_without_step() {
+    if (!last_locking_.empty())
+        return end(TorusOutcome::not_resolved, std::string(detail_));
     std::string near;
     if (const auto resonance = resonance_near(point_.torus.rotation, 2e-3))
         near = fmt::format("; the rotation number is near {}/{}, where the motion may lock", resonance->numerator,
@@ -321,6 +398,10 @@ bool TorusBranch::Follower::step() {
     const std::size_t number = point_.step + 1;
     double length = 0;
     const auto there = next_point(length);
+    if (!there && cross_tongue(point_.torus, false)) {
+        point_.step = number;
+        return true;
+    }
     if (!there)
         return end_without_step();
     const double parameter = there->u[problem_->parameter_place()];
@@ -408,6 +489,9 @@ bool TorusBranch::step() {
 }
 const TorusPoint& TorusBranch::point() const {
     return follower_->point();
+}
+const std::vector<PhaseLocking>& TorusBranch::last_locking() const {
+    return follower_->last_locking();
 }
 TorusOutcome TorusBranch::outcome() const {
     return follower_->outcome();

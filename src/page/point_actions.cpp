@@ -138,9 +138,16 @@ private:
             return;
         if (origin_.is_of(RunKind::curve))
             find_of_curve();
+        else if (type_ == PointType::locking)
+            find_of_locking();
         else if (!origin_.is_of(RunKind::torus))
             find_of_branch();
         find_of_any();
+    }
+
+    void find_of_locking() {
+        add("curve", "Edge of the tongue", "where the motion begins or ceases to lock as two parameters change", 2);
+        add("follow", "The locked orbits", "the stable and the unstable orbit that meet here", 1);
     }
 
     void find_of_branch() {

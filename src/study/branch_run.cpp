@@ -264,10 +264,16 @@ std::optional<OrbitRecord> first_orbit(const Study& study, const StudyRun& run, 
     if (!run.start || !run_named(study, run.start->run).is_branch())
         return std::nullopt;
     const StudyRun& parent = run_named(study, run.start->run);
-    if (parent.kind == RunKind::torus)
-        throw InputError(run.start->place, fmt::format("run '{}' has tori, and no orbits to start from", parent.name),
-                         "start from a branch of orbits");
-    return file.with([&](const ResultFile& results) { return orbit_to_start_from(*run.start, parent, results); });
+    OrbitRecord record =
+        file.with([&](const ResultFile& results) { return orbit_to_start_from(*run.start, parent, results); });
+    if (record.torus)
+        throw InputError(
+            run.start->place,
+            fmt::format("run '{}' has tori, and no orbits to start from but those of its points PL", parent.name),
+            "start from one of these, or from a branch of orbits");
+    if (record.point.type == PointType::locking) // a fold of an orbit, as any other
+        record.point.type = PointType::fold;
+    return record;
 }
 
 /// Refuses a curve that does not leave its first point.

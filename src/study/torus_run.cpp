@@ -11,12 +11,29 @@ namespace graze {
 
 namespace {
 
+/// What is known of a resonance that has no point of its own.
+std::string locking_in_words(const PhaseLocking& locking, const std::string& parameter) {
+    const auto at = [&] { return fmt::format(" at {} = {:.10g}", parameter, locking.parameter); };
+    switch (locking.known) {
+    case PhaseLocking::Width::bounded:
+        return fmt::format("{} (locking narrower than {:.1e})", at(), locking.width);
+    case PhaseLocking::Width::one_end:
+        return fmt::format(" (locking{}, of which one end is known: {})", at(), locking.problem);
+    case PhaseLocking::Width::unknown:
+        return fmt::format(" (whether it locks was not found out: {})", locking.problem);
+    case PhaseLocking::Width::located:
+        break;
+    }
+    return "";
+}
+
 /// The resonances that a branch has passed since the last torus, in words.
-std::string passed_in_words(const TorusPoint& torus) {
+std::string passed_in_words(const TorusPoint& torus, const std::string& parameter) {
     std::string text;
-    for (const Resonance& one : torus.passed)
-        text += fmt::format("{}{}/{}{}", text.empty() ? "passed the rotation numbers " : ", ", one.numerator,
-                            one.denominator, one.is_strong() ? " (strong)" : "");
+    for (const PhaseLocking& one : torus.passed)
+        text += fmt::format("{}{}/{}{}{}", text.empty() ? "passed the rotation numbers " : ", ",
+                            one.resonance.numerator, one.resonance.denominator,
+                            one.resonance.is_strong() ? " (strong)" : "", locking_in_words(one, parameter));
     return text;
 }
 
@@ -24,7 +41,9 @@ std::string passed_in_words(const TorusPoint& torus) {
 SpecialPoint point_of(const TorusPoint& torus, bool at_bound, const std::string& parameter) {
     SpecialPoint point;
     point.type = at_bound ? PointType::bound : torus.step == 0 ? PointType::end : PointType::regular;
-    point.detail = torus.step == 0 ? "start" : passed_in_words(torus);
+    point.detail = passed_in_words(torus, parameter);
+    if (torus.step == 0)
+        point.detail = point.detail.empty() ? "start" : "start; " + point.detail;
     if (at_bound)
         point.detail =
             fmt::format("{} = {:.10g}{}{}", parameter, torus.parameter, point.detail.empty() ? "" : "; ", point.detail);
@@ -53,6 +72,20 @@ TorusRecord record_of(const TorusPoint& point) {
 
 } // namespace
 
+namespace {
+
+/// Adds the ends of the intervals in which tori lock.
+void add_lockings(const std::vector<PhaseLocking>& lockings, const TorusPoint& torus, PointWriter& writer) {
+    for (const PhaseLocking& one : lockings)
+        for (SpecialPoint end : one.ends) {
+            end.step = torus.step;
+            end.arclength = torus.arclength;
+            writer.add("tori", end, false);
+        }
+}
+
+} // namespace
+
 bool run_torus(const StudyRun& run, const System& system, const OrbitRecord& first, PointWriter& writer,
                const RunnerOptions& options) {
     const BranchRequest& branch = run.branch();
@@ -66,6 +99,7 @@ bool run_torus(const StudyRun& run, const System& system, const OrbitRecord& fir
     while (going) {
         const TorusPoint& torus = tori.point();
         const bool at_bound = tori.outcome() == TorusOutcome::bound;
+        add_lockings(torus.passed, torus, writer);
         writer.add("tori", point_of(torus, at_bound, parameter), torus.stable, record_of(torus));
         if (options.interrupted && options.interrupted())
             return false;
@@ -75,6 +109,8 @@ bool run_torus(const StudyRun& run, const System& system, const OrbitRecord& fir
     if (!why.empty() && !tori.detail().empty())
         why += ": " + tori.detail();
     writer.end(why);
+    add_lockings(tori.last_locking(), tori.point(), writer);
+    writer.flush();
     return true;
 }
 

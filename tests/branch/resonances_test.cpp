@@ -15,25 +15,26 @@ std::string between(double from, double to) {
 }
 
 TEST(Resonances, AreToldInTheOrderInWhichTheyArePassed) {
-    EXPECT_EQ(between(0.3, 0.19), "2/7 1/4 1/5 ");
-    EXPECT_EQ(between(0.19, 0.3), "1/5 1/4 2/7 ");
-    EXPECT_EQ(between(0.45, 0.55), "1/2 ");
+    EXPECT_EQ(between(0.3, 0.19), "2/7 3/11 1/4 2/9 1/5 ");
+    EXPECT_EQ(between(0.19, 0.3), "1/5 2/9 1/4 3/11 2/7 3/10 ");
+    EXPECT_EQ(between(0.46, 0.54), "1/2 ");
     EXPECT_EQ(between(0.26, 0.27), "");
     EXPECT_EQ(between(-0.01, 0.01), "0/1 ");
+    EXPECT_EQ(between(-0.19, -0.21), "-1/5 ");
     EXPECT_EQ(between(0.99, 1.01), "1/1 ");
 }
 
 // So that none is passed twice.
 TEST(Resonances, ThoseAtTheEndCountAndThoseAtTheBeginningDoNot) {
-    EXPECT_EQ(between(0.2, 0.25), "1/4 ");
-    EXPECT_EQ(between(0.25, 0.2), "1/5 ");
+    EXPECT_EQ(between(0.2, 0.25), "2/9 1/4 ");
+    EXPECT_EQ(between(0.25, 0.2), "2/9 1/5 ");
     EXPECT_EQ(between(0.25, 0.25), "");
 }
 
 TEST(Resonances, TheNearestHasTheSmallestDenominator) {
     const auto third = resonance_near(0.334, 1e-3);
     ASSERT_TRUE(third);
-    EXPECT_EQ(third->numerator, 1U);
+    EXPECT_EQ(third->numerator, 1);
     EXPECT_EQ(third->denominator, 3U);
     EXPECT_TRUE(third->is_strong());
     EXPECT_FALSE(resonance_near(0.19, 1e-3));

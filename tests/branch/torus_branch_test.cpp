@@ -83,12 +83,18 @@ TEST(TorusBranch, NormalFormHasItsClosedForm) {
         EXPECT_NEAR(one.monitors[0], 1 + radius, 1e-9);
         EXPECT_NEAR(one.monitors[1], -1. / 3 - radius, 1e-9);
     }
-    // From 0.3 to 0.16 the rotation number passes 2/7, 1/4, 1/5 and 1/6, which do not matter here.
+    // From 0.3 to 0.16 the rotation number passes resonances, which do not matter here.
     std::string passed;
     for (const TorusPoint& one : points)
-        for (const Resonance& resonance : one.passed)
+        for (const PhaseLocking& locking : one.passed) {
+            const Resonance& resonance = locking.resonance;
             passed += fmt::format("{}/{} ", resonance.numerator, resonance.denominator);
-    EXPECT_EQ(passed, "2/7 1/4 1/5 1/6 ");
+            EXPECT_EQ(locking.known, PhaseLocking::Width::bounded) << locking.problem;
+            EXPECT_NEAR(locking.parameter, (w - resonance.value()) / b, 1e-11);
+            EXPECT_LT(locking.width, 1e-11);
+            EXPECT_TRUE(locking.ends.empty());
+        }
+    EXPECT_EQ(passed, "2/7 3/11 1/4 2/9 1/5 2/11 1/6 ");
 }
 
 TEST(TorusBranch, BoundsMayBeginAtTheTorusPoint) {

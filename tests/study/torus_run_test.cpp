@@ -99,6 +99,73 @@ TEST_F(TorusRun, ATorusIsNoOrbit) {
     EXPECT_THAT(refused([&] { stored_ladder(file, {.point = "tori:BD1"}); }), HasSubstr("is a torus"));
 }
 
+/// z -> z (1 + p - |z|^2) exp(i phi) with phi = 2 pi (w + p/10) + 0.3 Im z^5 locks where 2 pi |w + p/10 - 1/5| is below
+/// 0.3 p^(5/2): between 0.0985444671866206 and 0.1015698321654422 for w = 0.19.
+TEST_F(TorusRun, LockingsAreOrbitsToStartFrom) {
+    const std::string turn = "(2*pi*(w + 0.1*p) + 0.3*(5*x^4*y - 10*x^2*y^3 + y^5))";
+    const testing::OneMode map{
+        .parameters = "p = -0.05\nw = 0.19",
+        .states = "x = 0\ny = 0\nclock = 0",
+        .rates = "x = 0, y = 0, clock = 1",
+        .stops = {{"tick", "1 - clock",
+                   "x = '(1 + p - x^2 - y^2)*(x*cos" + turn + " - y*sin" + turn +
+                       ")'\ny = '(1 + p - x^2 - y^2)*(x*sin" + turn + " + y*cos" + turn + ")'\nclock = 0",
+                   "map"}}};
+    folder_.write("model.toml", "name = 'locks'\n" + map.text());
+    testing::expect_complete(run(R"(
+name = "s"
+model = "model.toml"
+[runs.orbits]
+kind = "continue"
+signature = "map"
+along = { p = [-0.05, 0.12] }
+[runs.tori]
+kind = "torus"
+start = { run = "orbits", point = "NS1" }
+along = { p = [-0.05, 0.12] }
+[runs.locked]
+kind = "continue"
+start = { run = "tori", point = "PL1" }
+along = { p = [0, 0.12] }
+[runs.edge]
+kind = "curve"
+start = { run = "tori", point = "PL2" }
+along = { w = [0.185, 0.195], p = [0, 0.2] }
+[pictures.all]
+runs = ["orbits", "tori", "locked"]
+y = "max_x"
+)"));
+    const ResultFile file(path_, ResultFile::Access::read);
+    constexpr double begin = 0.0985444671866206, end = 0.1015698321654422;
+    std::string labels;
+    for (const OrbitRecord& one : file.orbits("tori", true)) {
+        labels += one.label + ' ';
+        if (one.point.type != PointType::locking)
+            continue;
+        EXPECT_FALSE(one.torus);
+        EXPECT_EQ(one.point.solution.orbit.segments(), 5U);
+        EXPECT_NEAR(one.point.parameter, one.label == "PL1" ? begin : end, 1e-13);
+        EXPECT_NEAR(one.point.bracket.first, begin, 1e-13);
+        EXPECT_NEAR(one.point.bracket.second, end, 1e-13);
+        EXPECT_NEAR(one.point.monitors[0], std::sqrt(one.point.parameter), 0.2 * std::sqrt(begin));
+        EXPECT_THAT(one.point.detail, HasSubstr("width 0.00302536"));
+    }
+    EXPECT_EQ(labels, "EP1 PL1 PL2 BD1 ");
+    std::size_t folds = 0;
+    for (const OrbitRecord& one : file.orbits("locked", true)) {
+        const double p = one.point.parameter;
+        folds += one.point.type == PointType::fold ? 1 : 0;
+        if (one.point.type == PointType::fold) {
+            EXPECT_NEAR(p, p < 0.5 * (begin + end) ? begin : end, 1e-12);
+        }
+    }
+    EXPECT_GE(folds, 2U);
+    for (const OrbitRecord& one : file.orbits("edge", false)) {
+        const auto& [p, w] = std::pair(one.point.solution.orbit.parameters[0], one.point.solution.orbit.parameters[1]);
+        EXPECT_NEAR(2 * 3.14159265358979 * (w + 0.1 * p - 0.2), 0.3 * std::pow(p, 2.5), 1e-10) << p;
+    }
+}
+
 TEST_F(TorusRun, AMotionBeginsOnATorus) {
     testing::expect_complete(run(start_of_study + std::string(R"(
 [runs.motion]

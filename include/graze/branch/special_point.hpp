@@ -49,6 +49,7 @@ enum class PointType {
     generalised_hopf,     ///< GH: on a curve of Hopf points: criticality changes (Bautin)
     homoclinic,           ///< HC: the period grows without bound: the orbit becomes homoclinic to a saddle
     homoclinic_tangency,  ///< HT: of orbits homoclinic to a cycle: its stable and unstable manifold touch, as at a fold
+    locking,              ///< PL: phase locking, on a branch of tori: the interval in which they lock begins or ends
     extremum,             ///< EX: extremum of the period, where that is free; or of a parameter, on a curve
     bound,                ///< BD: a given bound is reached
     crossing,             ///< UZ: a monitor takes a requested value

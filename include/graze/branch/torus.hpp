@@ -39,10 +39,13 @@ struct TorusFacts {
 /// A rotation number of few returns: numerator / denominator turns per return.
 struct Resonance {
     static constexpr std::size_t largest_strong = 4;
-    std::size_t numerator = 0, denominator = 1;
+    static constexpr std::size_t largest = 12; ///< denominator of those that branches of tori look at
+    long numerator = 0;
+    std::size_t denominator = 1;
     /// True for those near which there may be no torus even where it is small.
     bool is_strong() const { return denominator <= largest_strong; }
     double value() const { return static_cast<double>(numerator) / static_cast<double>(denominator); }
+    bool operator==(const Resonance&) const = default;
 };
 
 } // namespace graze

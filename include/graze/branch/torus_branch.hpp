@@ -21,6 +21,24 @@ struct TorusResolution {
     void validate() const;
 };
 
+/// Phase locking: where the rotation number of tori passes p/q there are, in an interval of the parameter, a stable and
+/// an unstable orbit of q returns (or several), and no quasi-periodic motion. The interval ends at their folds.
+struct PhaseLocking {
+    enum class Width {
+        located, ///< both ends are known
+        bounded, ///< the interval is narrower than the accuracy of orbits shows
+        one_end, ///< an end was found, and the other not; `problem` says why
+        unknown, ///< nothing was found; `problem` says why
+    };
+    Resonance resonance;
+    Width known = Width::unknown;
+    double parameter = 0; ///< within the interval
+    double width = 0;     ///< of the interval; where it is bounded, the bound
+    /// The folds, of type `locking`, in the order of the branch.
+    std::vector<SpecialPoint> ends;
+    std::string problem;
+};
+
 /// A computed torus of a branch.
 struct TorusPoint {
     Torus torus;
@@ -29,8 +47,9 @@ struct TorusPoint {
     double parameter = 0, arclength = 0;
     bool stable = false;
     std::size_t step = 0, iterations = 0;
-    std::vector<double> monitors;  ///< extremes over the whole torus
-    std::vector<Resonance> passed; ///< resonances between the torus before and this one
+    std::vector<double> monitors; ///< extremes over the whole torus
+    /// Resonances between the torus before and this one, in the order of the branch.
+    std::vector<PhaseLocking> passed;
 };
 
 /// Why a branch of tori has ended, or that it has not.
@@ -50,7 +69,8 @@ std::string_view name_of(TorusOutcome outcome);
 /// stopped after any step. The circle of each torus is a Fourier series that satisfies its equation at as many angles
 /// as there are terms (E. Castella and A. Jorba, Celest. Mech. Dyn. Astron. 76, 2000; F. Schilder, H. M. Osinga and W.
 /// Vogt, SIAM J. Appl. Dyn. Syst. 4, 2005). The return makes the segments of the orbit, with derivatives through its
-/// contacts.
+/// contacts. Intervals in which tori lock are found where rotation numbers with denominators up to Resonance::largest
+/// are passed; the branch goes on beyond those that it cannot step over.
 class TorusBranch {
 public:
     /// @param point of type `torus` @param settings of which the parameter, its bounds, the number of steps, the steps
@@ -66,6 +86,8 @@ public:
     /// @return false when the branch has ended. At a bound, and where the torus grazes, the last torus is there.
     bool step();
     const TorusPoint& point() const;
+    /// Where the branch has ended in a locking, or has not been able to begin beside one: that locking.
+    const std::vector<PhaseLocking>& last_locking() const;
     TorusOutcome outcome() const;
     const std::string& detail() const;
 
