@@ -29,6 +29,13 @@ Torus interpolated(const Torus& from, const Torus& to, double share) {
     return torus;
 }
 
+/// True for the torus of radius zero, with which a branch begins.
+bool is_orbit(const Torus& torus) {
+    return std::all_of(torus.terms.begin() + 1, torus.terms.end(), [](const std::vector<double>& term) {
+        return std::ranges::all_of(term, [](double one) { return one == 0; });
+    });
+}
+
 } // namespace
 
 LockedCurveFinder LockingSearch::finder(const Torus& circle, const Resonance& resonance, double parameter) const {
@@ -36,9 +43,13 @@ LockedCurveFinder LockingSearch::finder(const Torus& circle, const Resonance& re
 }
 
 std::vector<PhaseLocking> LockingSearch::between(const Torus& from, const Torus& to) const {
+    constexpr double round_off = 1e-10; // of the rotation number at the torus point
     std::vector<PhaseLocking> found;
     const double first = parameter_of(from), last = parameter_of(to);
     for (const Resonance& one : resonances_between(from.rotation, to.rotation)) {
+        // A resonance of the orbit itself is not passed by its tori.
+        if (is_orbit(from) && std::abs(one.value() - from.rotation) < round_off)
+            continue;
         const double share = (one.value() - from.rotation) / (to.rotation - from.rotation);
         found.push_back(examined(interpolated(from, to, share), one, first + share * (last - first), last - first));
     }
