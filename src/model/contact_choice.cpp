@@ -58,6 +58,8 @@ bool ContactChoice::add_by_sign(std::vector<Alternative>& to, const Alternative&
                 known[i].slip = ContactState::closed;
                 continue;
             }
+            if (follow_others(base, known, i))
+                continue;
             const Expression& slip = mechanics.slip(i).velocity;
             for (const ContactState state : {ContactState::forward, ContactState::backward})
                 with(state == ContactState::forward ? slip : -slip,
@@ -69,6 +71,22 @@ bool ContactChoice::add_by_sign(std::vector<Alternative>& to, const Alternative&
         }
     }
     return false;
+}
+
+/// Slips that depend on one another have no signs of their own. @return whether that of this contact is known now
+bool ContactChoice::follow_others(std::size_t base, ContactsKnowledge& known, std::size_t contact) {
+    ContactStates states;
+    for (const ContactKnowledge& one : known)
+        states.push_back(one.normal != ContactKnowledge::Normal::touching ? ContactState::open
+                         : one.at_rest                                    ? ContactState::stick
+                                                                          : one.slip.value_or(ContactState::closed));
+    const auto follows = modes_.mechanics(base).following_slip(contact, std::move(states));
+    if (!follows || !follows->apart.is_number(0))
+        return false;
+    known[contact].at_rest = follows->state == ContactState::stick;
+    if (!known[contact].at_rest)
+        known[contact].slip = follows->state;
+    return true;
 }
 
 /// Of all combinations, those with most contacts closed first, the first one that is consistent is taken. Without
@@ -93,12 +111,12 @@ void ContactChoice::add_by_forces(std::vector<Alternative>& to, const Alternativ
     });
     const std::size_t before = to.size();
     for (const ContactStates& states : options)
-        if (modes_.possible(base, states))
+        if (modes_.moves(base, states) && states != left_out_)
             add_consistent(to, given, base, known, states);
     if (smooth && to.size() > before) {
         to.back().when = given.when;
         to.back().when_text = given.when_text;
-    } else if (tell_paradox_ && modes_.possible(base, options.front())) {
+    } else if (tell_paradox_ && modes_.moves(base, options.front())) {
         to.push_back({given.when, given.when_text, modes_.variant(base, options.front()).mode});
     }
 }
@@ -118,12 +136,11 @@ void ContactChoice::add_consistent(std::vector<Alternative>& to, const Alternati
         if (states[i] == ContactState::open) {
             require(there.normal_acceleration[i]);
             word = "opens";
-        } else {
-            require(there.force.normal[i]);
         }
+        for (const ContactLimit& limit : there.force.limits)
+            if (limit.beyond.front().first == i)
+                require(limit.function);
         if (states[i] == ContactState::stick) {
-            require(there.force.limit[i] - there.force.tangential[i]);
-            require(there.force.limit[i] + there.force.tangential[i]);
             word = "sticks";
         } else if (is_slip(states[i])) {
             const bool forward = states[i] == ContactState::forward;
@@ -133,7 +150,7 @@ void ContactChoice::add_consistent(std::vector<Alternative>& to, const Alternati
         }
         next.when_text += fmt::format("{}{} {}", next.when_text.empty() ? "" : " and ", model_.contacts[i].name, word);
     }
-    for (const auto* further : {&there.force.regular, &there.force.parallel})
+    for (const auto* further : {&there.force.regular, &there.force.joint})
         for (const Expression& one : *further)
             require(one, true);
     for (const Expression& one : there.force.apart)

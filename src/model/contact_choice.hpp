@@ -30,6 +30,9 @@ public:
     /// If no mode is consistent, chooses that with most contacts closed, in which the motion ends at once and says why.
     void tell_paradox(bool tell) { tell_paradox_ = tell; }
 
+    /// Leaves out the mode of these states, which has just come to its end. @param states none: leaves out no mode
+    void leave_out(const ContactStates& states) { left_out_ = states; }
+
     /// Adds alternatives for what is known of the contacts. @param given conditions that hold in addition
     void add(std::vector<Alternative>& to, const Alternative& given, std::size_t base, ContactsKnowledge known);
 
@@ -37,6 +40,7 @@ private:
     Alternative without(Alternative given, const std::vector<Expression>& not_negative) const;
     bool add_by_sign(std::vector<Alternative>& to, const Alternative& given, std::size_t base,
                      ContactsKnowledge& known);
+    bool follow_others(std::size_t base, ContactsKnowledge& known, std::size_t contact);
     void add_by_forces(std::vector<Alternative>& to, const Alternative& given, std::size_t base,
                        const ContactsKnowledge& known);
     void add_consistent(std::vector<Alternative>& to, const Alternative& given, std::size_t base,
@@ -45,6 +49,7 @@ private:
     Model& model_;
     ContactModes& modes_;
     bool tell_paradox_ = false;
+    ContactStates left_out_{};
 };
 
 /// Adds a condition unless it always holds. @return false if it never holds

@@ -14,7 +14,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <tuple>
 #include <utility>
 
 namespace graze {
@@ -69,7 +68,7 @@ private:
         for (const std::size_t base : modes_.bases())
             for (const ContactStates& states : all_states())
                 if (const auto mode = model_.find_mode(modes_.mode_name(base, states)); mode && named.contains(*mode)) {
-                    if (!modes_.possible(base, states))
+                    if (!modes_.moves(base, states))
                         refuse_mode(*mode, base, states);
                     modes_.variant(base, states);
                 }
@@ -78,12 +77,12 @@ private:
     [[noreturn]] void refuse_mode(std::size_t mode, std::size_t base, const ContactStates& states) {
         std::vector<std::string> names;
         for (const ContactStates& others : all_states())
-            if (modes_.possible(base, others))
+            if (modes_.moves(base, others))
                 names.push_back(fmt::format("'{}'", modes_.mode_name(base, others)));
         fail(mode == model_.initial_mode ? "initial.mode" : "transitions",
              fmt::format("the mode '{}' does not exist: at the initial state its contacts {}", mode_name(mode),
                          modes_.possible(base, without_friction(states))
-                             ? "stick in more directions than the velocities have"
+                             ? "do not stick or slip so: their slips depend on one another"
                              : "cannot be closed at once"),
              fmt::format("name one of {}", fmt::join(names, ", ")));
     }
@@ -252,10 +251,10 @@ private:
             if (after[contact] == ContactState::open) // another contact keeps this one open, but normal speeds vanish
                 after[contact] = rest_beside_others(base, after, contact);
         for (std::size_t i = 0; i < after.size(); ++i)
-            for (std::size_t j = 0; j < after.size(); ++j)
-                if (is_slip(after[i]) && after[j] == ContactState::stick && stick_together(base, after, i, j))
-                    after[i] = ContactState::stick; // their slips are one
-        if (!modes_.possible(base, after))
+            if (is_slip(after[i]))
+                if (const auto follows = modes_.mechanics(base).following_slip(i, after))
+                    after[i] = follows->state;
+        if (!modes_.moves(base, after))
             return;
         for (std::size_t i = 0; i < after.size(); ++i)
             words += contact_words(contact_name(i), after[i]);
@@ -264,14 +263,12 @@ private:
         made.chatter = Sticking{jump, modes_.variant(base, after).mode};
     }
 
-    /// Returns what a contact that comes to rest with others does: it slips as another one in the same direction does.
+    /// Returns what a contact that comes to rest with others does: it slips as they do if its slip follows from theirs.
     ContactState rest_beside_others(std::size_t base, const ContactStates& states, std::size_t contact) {
         if (!modes_.mechanics(base).rubs(contact))
             return ContactState::closed;
-        for (std::size_t i = 0; i < states.size(); ++i)
-            if (is_slip(states[i]) && stick_together(base, states, contact, i))
-                return states[i];
-        return ContactState::stick;
+        const auto follows = modes_.mechanics(base).following_slip(contact, states);
+        return follows ? follows->state : ContactState::stick;
     }
 
     /// Returns the jump with this map, made if there is none.
@@ -309,87 +306,114 @@ private:
     // --- ends of contact, rest and slip
 
     /// Returns what is known of the contacts of a variant whose motion goes on.
-    ContactsKnowledge knowledge_of(std::size_t base, const ContactStates& states) {
+    static ContactsKnowledge knowledge_of(const ContactStates& states) {
         ContactsKnowledge known(states.size());
         for (std::size_t i = 0; i < states.size(); ++i)
-            if (states[i] == ContactState::stick || rests_with_others(base, states, i))
+            if (states[i] == ContactState::stick)
                 known[i] = {Normal::touching, std::nullopt, true};
             else if (states[i] != ContactState::open)
                 known[i] = {Normal::touching, states[i], false};
         return known;
     }
 
-    /// Returns whether a contact that counts as slipping has no slip, because others are closed and stick: its sign is
-    /// that of round-off.
-    bool rests_with_others(std::size_t base, const ContactStates& states, std::size_t contact) {
-        if (!is_slip(states[contact]) || std::ranges::count(states, ContactState::stick) == 0)
-            return false;
-        const auto [known, added] = rests_.emplace(std::tuple(base, states, contact), false);
-        if (!added)
-            return known->second;
-        const ContactMechanics& mechanics = modes_.mechanics(base);
-        std::vector<Expression> zero;
-        for (std::size_t i = 0; i < states.size(); ++i) {
-            if (states[i] == ContactState::open)
-                continue;
-            zero.push_back(mechanics.gap(i));
-            zero.push_back(mechanics.normal(i).velocity);
-            if (states[i] == ContactState::stick)
-                zero.push_back(mechanics.slip(i).velocity);
-        }
-        const std::vector<Expression> slip{mechanics.slip(contact).velocity};
-        return known->second = Vanishing(model_, RandomInputs(model_), zero).of(slip).front();
-    }
-
     void add_ends(std::size_t base, const ContactVariant& variant, std::size_t contact) {
-        const std::string& name = contact_name(contact);
-        const Expression& force = variant.force.normal[contact];
-        ContactsKnowledge known = knowledge_of(base, variant.states);
-        known[contact] = {};
-        const std::size_t opens = add_end(base, variant, name + "-opens",
-                                          fmt::format("the force in '{}' falls to zero", name), force, 0, known);
-        model_.modes[variant.mode].slides_on.push_back({modes_.gap_event(contact), {opens, opens}});
-        const ContactState state = variant.states[contact];
-        const bool carries = !variant.force.limit[contact].is_number(0);
-        if (state == ContactState::stick && carries) {
-            const Expression& limit = variant.force.limit[contact];
-            for (const ContactState direction : {ContactState::forward, ContactState::backward}) {
-                const bool forward = direction == ContactState::forward;
-                known = knowledge_of(base, variant.states);
-                for (std::size_t i = 0; i < known.size(); ++i)
-                    if (carried_by(base, variant.states, i) == contact)
-                        known[i] = {Normal::touching, direction, false};
-                const Expression& rubbing = variant.force.tangential[contact];
-                add_end(base, variant, name + (forward ? "-forward" : "-backward"),
-                        fmt::format("friction in '{}' gives way", name), forward ? limit + rubbing : limit - rubbing,
-                        jump_to_rest(base, contact), known);
-            }
+        std::vector<std::size_t> openings;
+        for (const ContactLimit& limit : variant.force.limits) {
+            const auto [first, beyond] = limit.beyond.front();
+            if (first != contact || (beyond != ContactState::open && limit.beyond.size() == 1 &&
+                                     modes_.mechanics(base).friction(contact).is_number(0)))
+                continue;
+            const std::size_t event = add_limit(base, variant, limit);
+            if (beyond == ContactState::open)
+                openings.push_back(event);
         }
-        if (!is_slip(state) || rests_with_others(base, variant.states, contact))
+        if (!openings.empty())
+            model_.modes[variant.mode].slides_on.push_back(
+                {modes_.gap_event(contact), {openings.front(), openings.back()}});
+        const ContactState state = variant.states[contact];
+        if (!is_slip(state))
             return;
-        known = knowledge_of(base, variant.states);
+        ContactsKnowledge known = knowledge_of(variant.states);
         known[contact] = {Normal::touching, std::nullopt, true};
         std::vector<Case> cases;
         add_stops(cases, {{}, known}, base, variant, contact, 0);
-        add_transition(base, variant, modes_.stop_event(contact, state), name + "-stops", jump_to_rest(base, contact),
-                       cases);
+        add_transition(base, variant, modes_.stop_event(contact, state), contact_name(contact) + "-stops",
+                       jump_to_rest(base, contact), cases);
     }
 
-    /// Others that slip in the same direction come to rest at once, unless their slips have different zeros.
+    /// Adds the event at which forces reach a limit. @return the event
+    std::size_t add_limit(std::size_t base, const ContactVariant& variant, const ContactLimit& limit) {
+        ContactsKnowledge known = knowledge_of(variant.states);
+        ContactStates beyond = variant.states;
+        std::size_t jump = 0;
+        for (const auto& [contact, state] : limit.beyond) {
+            known[contact] = {};
+            beyond[contact] = state;
+            if (!is_slip(state))
+                continue;
+            known[contact] = {Normal::touching, state, false};
+            if (jump == 0)
+                jump = jump_to_rest(base, contact);
+        }
+        std::string what = contact_name(limit.beyond.front().first), text;
+        const bool opens = limit.beyond.front().second == ContactState::open;
+        if (limit.beyond.size() > 1)
+            what = joint_name(base, variant, limit, beyond);
+        else
+            what += opens ? "-opens" : contact_words("", limit.beyond.front().second).substr(1);
+        text = opens ? fmt::format("the force in '{}' falls to zero", contact_name(limit.beyond.front().first))
+                     : fmt::format("friction in '{}' gives way", contact_name(limit.beyond.front().first));
+        const std::size_t event = derived_event(
+            model_, places_, "contacts." + model_.contacts.front().name,
+            {.name = fmt::format("{}-{}", mode_name(variant.mode), what), .text = text, .function = limit.function});
+        const bool moves = modes_.moves(base, beyond);
+        if (!moves) // others give way than those whose forces are at their limits
+            known = knowledge_of(variant.states);
+        choice_.leave_out(moves ? ContactStates{} : variant.states);
+        add_transition(base, variant, event, what, jump, {{{}, known}});
+        choice_.leave_out({});
+        return event;
+    }
+
+    /// Names the end of a rest that contacts hold together: by the first one if all of them begin to slip.
+    std::string joint_name(std::size_t base, const ContactVariant& variant, const ContactLimit& limit,
+                           const ContactStates& beyond) {
+        std::string name;
+        for (const auto& [contact, state] : limit.beyond)
+            name += (name.empty() ? "" : "-") + contact_name(contact) +
+                    (state == ContactState::open ? "-opens" : contact_words("", state).substr(1));
+        const bool all = std::ranges::all_of(variant.force.limits, [&](const ContactLimit& other) {
+            return other.beyond.size() == 1 ||
+                   std::ranges::all_of(other.beyond, [&](const auto& one) { return is_slip(beyond[one.first]); });
+        });
+        return all && modes_.moves(base, beyond)
+                   ? contact_name(limit.beyond.front().first) + contact_words("", limit.beyond.front().second).substr(1)
+                   : name;
+    }
+
+    /// Others whose slips follow from this one come to rest at once, unless their slips have different zeros.
     /// @param other the first of those that are not known yet
     void add_stops(std::vector<Case>& to, const Case& given, std::size_t base, const ContactVariant& variant,
                    std::size_t contact, std::size_t other) {
-        while (other < variant.states.size() && (other == contact || !is_slip(variant.states[other]) ||
-                                                 !stick_together(base, variant.states, contact, other)))
-            ++other;
+        const ContactMechanics& mechanics = modes_.mechanics(base);
+        ContactStates stopped = variant.states;
+        stopped[contact] = ContactState::stick;
+        std::optional<ContactMechanics::FollowingSlip> follows;
+        for (; other < variant.states.size(); ++other) {
+            follows.reset();
+            if (other != contact && is_slip(variant.states[other]))
+                follows = mechanics.following_slip(other, stopped);
+            if (follows && follows->state == ContactState::stick)
+                break;
+        }
         if (other == variant.states.size())
             return to.push_back(given);
         Case stops = given;
-        if (const Expression apart = modes_.mechanics(base).apart(contact, other); !apart.is_number(0)) {
+        if (!follows->apart.is_number(0)) {
             Case slips = given;
-            if (add_condition(slips.given.when, apart, true))
+            if (add_condition(slips.given.when, follows->apart, true))
                 add_stops(to, slips, base, variant, contact, other + 1);
-            if (!add_condition(stops.given.when, -apart, false))
+            if (!add_condition(stops.given.when, -follows->apart, false))
                 return;
         }
         stops.known[other] = {Normal::touching, std::nullopt, true};
@@ -402,29 +426,6 @@ private:
         const std::vector<Expression> zero{modes_.mechanics(base).slip(contact).velocity};
         return add_jump("stop-" + contact_name(contact), "the slip is set to zero exactly",
                         modes_.velocity_map(still, zero));
-    }
-
-    /// Returns the contact that carries the friction of another one, or this one.
-    std::size_t carried_by(std::size_t base, const ContactStates& states, std::size_t contact) {
-        return states[contact] == ContactState::stick ? modes_.mechanics(base).carriers(states).value()[contact]
-                                                      : contact;
-    }
-
-    /// Returns whether two slipping contacts come to rest at once, because their directions are one.
-    bool stick_together(std::size_t base, ContactStates states, std::size_t one, std::size_t other) {
-        states[one] = states[other] = ContactState::stick;
-        const auto carriers = modes_.mechanics(base).carriers(states);
-        return carriers && ((*carriers)[one] == other || (*carriers)[other] == one);
-    }
-
-    std::size_t add_end(std::size_t base, const ContactVariant& variant, const std::string& what,
-                        const std::string& text, const Expression& function, std::size_t jump,
-                        const ContactsKnowledge& known) {
-        const std::size_t event = derived_event(
-            model_, places_, "contacts." + model_.contacts.front().name,
-            {.name = fmt::format("{}-{}", mode_name(variant.mode), what), .text = text, .function = function});
-        add_transition(base, variant, event, what, jump, {{{}, known}});
-        return event;
     }
 
     /// Says what follows a transition, and why the motion ends where nothing does.
@@ -457,9 +458,9 @@ private:
         add_limits(variant, variant.force.regular, "painleve", true,
                    "Painlevé's paradox of rigid bodies with friction: beyond this point the contact forces are not "
                    "determined; end the motion before by an event, or take a smaller coefficient of friction");
-        add_limits(variant, variant.force.parallel, "undetermined", false,
-                   "contacts stick in more directions than the velocities have, so that their forces are not "
-                   "determined: give one of them no friction, or a body between them a degree of freedom of its own");
+        add_limits(variant, variant.force.joint, "undetermined", false,
+                   "contacts stick together whose slips do not depend on one another in the way they do at the initial "
+                   "state: start in a general position, or give one of them no friction");
     }
 
     /// Adds events at which a motion ends because its forces cease to be determined.
@@ -528,7 +529,7 @@ private:
                     made.next.push_back(alternative);
                     continue;
                 }
-                ContactsKnowledge known = knowledge_of(base, variant.states);
+                ContactsKnowledge known = knowledge_of(variant.states);
                 for (std::size_t i = 0; i < known.size(); ++i)
                     if (!keeps(given.jump, base, i))
                         known[i] = {};
@@ -599,7 +600,6 @@ private:
     ContactImpacts impacts_;
     std::map<std::size_t, std::vector<std::size_t>> watched_; ///< of each written mode, by the user
     std::set<std::pair<std::size_t, std::size_t>> written_;   ///< mode and event of the user's transitions
-    std::map<std::tuple<std::size_t, ContactStates, std::size_t>, bool> rests_; ///< see rests_with_others
     std::set<std::string> labels_;
     std::size_t own_ = 0; ///< number of the user's transitions
 };

@@ -2,6 +2,7 @@
 
 #include "graze/base/input_error.hpp"
 #include "graze/symbolic/transform.hpp"
+#include "model/expression_matrix.hpp"
 #include "model/model_completion.hpp"
 
 #include <fmt/format.h>
@@ -14,46 +15,7 @@ namespace graze {
 
 namespace {
 
-using ExpressionMatrix = std::vector<std::vector<Expression>>;
-
-/// Eliminates the columns of a matrix with further columns of right-hand sides. Matrices of inertia need no exchange of
-/// rows for stability; a pivot that is identically zero is exchanged. @return the determinant
-Expression eliminate(ExpressionMatrix& rows, const Expression& one) {
-    Expression determinant = one;
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-        const auto found = std::find_if(rows.begin() + static_cast<std::ptrdiff_t>(k), rows.end(),
-                                        [&](const auto& row) { return !row[k].is_number(0); });
-        if (found == rows.end())
-            return one.graph()->number(0);
-        if (found != rows.begin() + static_cast<std::ptrdiff_t>(k)) {
-            std::swap(*found, rows[k]);
-            determinant = -determinant;
-        }
-        determinant = determinant * rows[k][k];
-        for (std::size_t j = k + 1; j < rows[k].size(); ++j)
-            rows[k][j] = rows[k][j] / rows[k][k];
-        for (std::size_t i = 0; i < rows.size(); ++i)
-            if (i != k && !rows[i][k].is_number(0))
-                for (std::size_t j = k + 1; j < rows[k].size(); ++j)
-                    if (!rows[k][j].is_number(0))
-                        rows[i][j] = rows[i][j] - rows[i][k] * rows[k][j];
-    }
-    return determinant;
-}
-
-/// Tries Cholesky's method, which needs pivots above this share of the diagonal. @param matrix symmetric, n x n
-bool has_positive_pivots(std::vector<double> matrix, std::size_t n, double share) {
-    const std::vector<double> given = matrix;
-    for (std::size_t k = 0; k < n; ++k) {
-        const double pivot = matrix[k * n + k];
-        if (!(pivot > share * given[k * n + k]))
-            return false;
-        for (std::size_t i = k + 1; i < n; ++i)
-            for (std::size_t j = k + 1; j < n; ++j)
-                matrix[i * n + j] -= matrix[i * n + k] * matrix[k * n + j] / pivot;
-    }
-    return true;
-}
+constexpr double negligible_share = 1e-9; ///< of a slip in another one
 
 } // namespace
 
@@ -98,7 +60,8 @@ std::string contact_words(const std::string& contact, ContactState state) {
 
 ContactMechanics::ContactMechanics(Model& model, const Places& places, SurfaceMotion& motion, std::size_t mode)
     : model_(model), places_(places), motion_(motion), velocities_(model.contact_settings.velocities),
-      mass_(motion.expanded(model.contact_settings.mass)), field_(motion.expanded(model.modes[mode].rates)) {
+      mass_(motion.expanded(model.contact_settings.mass)), field_(motion.expanded(model.modes[mode].rates)),
+      directions_(model) {
     for (const std::size_t state : velocities_)
         symbols_.push_back(model.symbol(model.states[state].name));
     require_positive_masses();
@@ -111,15 +74,16 @@ ContactMechanics::ContactMechanics(Model& model, const Places& places, SurfaceMo
                                  fmt::format("the gap of '{}' depends on the velocity '{}', which impulses change",
                                              contact.name, model.states[velocities_[i]].name),
                                  "give it in terms of positions");
-        normal_.push_back(direction_of(motion.rate_along(gaps_.back(), field_), path + ".gap",
-                                       fmt::format("the rate of the gap of '{}'", contact.name)));
+        ContactDirection normal = direction_of(motion.rate_along(gaps_.back(), field_), path + ".gap",
+                                               fmt::format("the rate of the gap of '{}'", contact.name));
         friction_.push_back(contact.friction ? motion.expanded(*contact.friction) : model.number(0));
-        slip_.emplace_back();
+        std::optional<ContactDirection> slip;
         if (contact.slip)
-            slip_.back() = direction_of(motion.expanded(*contact.slip), path + ".slip",
-                                        fmt::format("the slip of '{}'", contact.name));
+            slip = direction_of(motion.expanded(*contact.slip), path + ".slip",
+                                fmt::format("the slip of '{}'", contact.name));
+        directions_.add_contact(std::move(normal), std::move(slip));
     }
-    note_products();
+    directions_.note(symbols_, gaps_);
 }
 
 void ContactMechanics::require_positive_masses() const {
@@ -160,43 +124,36 @@ void ContactMechanics::require_linear(const ContactDirection& direction, const s
                                  "give the gap in terms of positions, and velocities in which their rates are linear");
 }
 
-Expression ContactMechanics::along(const ContactDirection& direction, const std::vector<Expression>& changes) const {
-    Expression sum = model_.number(0);
-    for (std::size_t i = 0; i < changes.size(); ++i)
-        sum = sum + direction.slopes[i] * changes[i];
-    return sum;
-}
-
 ContactForces ContactMechanics::solve(const ContactStates& states, const std::vector<Expression>& normal_changes,
                                       const std::vector<Expression>& tangential_changes) const {
     const Expression zero = model_.number(0), one = model_.number(1);
-    const std::vector<std::size_t> carried_by = carriers(states).value();
-    std::vector<const ContactDirection*> equations;
+    const Held held = this->held(states).value();
+    std::vector<std::size_t> equations;
     std::vector<std::vector<Expression>> columns;
     std::vector<Expression> wanted;
     ContactForces result;
     for (std::size_t i = 0; i < states.size(); ++i) {
         if (states[i] == ContactState::open)
             continue;
-        equations.push_back(&normal_[i]);
+        equations.push_back(2 * i);
         wanted.push_back(normal_changes[i]);
-        columns.push_back(normal_[i].response);
+        columns.push_back(normal(i).response);
         if (is_slip(states[i])) {
             const Expression share = states[i] == ContactState::forward ? -friction_[i] : friction_[i];
             for (std::size_t k = 0; k < symbols_.size(); ++k)
-                columns.back()[k] = columns.back()[k] + share * slip_[i]->response[k];
-            result.regular.push_back(along(normal_[i], columns.back()));
+                columns.back()[k] = columns.back()[k] + share * slip(i).response[k];
+            result.regular.push_back(normal(i).along(columns.back()));
         }
-        if (states[i] == ContactState::stick && carried_by[i] == i) {
-            equations.push_back(&*slip_[i]);
+        if (states[i] == ContactState::stick && !held.follows(i)) {
+            equations.push_back(2 * i + 1);
             wanted.push_back(tangential_changes[i]);
-            columns.push_back(slip_[i]->response);
+            columns.push_back(slip(i).response);
         }
     }
     ExpressionMatrix rows(equations.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
         for (const auto& column : columns)
-            rows[i].push_back(along(*equations[i], column));
+            rows[i].push_back(directions_[equations[i]].along(column));
         rows[i].push_back(wanted[i]);
     }
     const Expression determinant = eliminate(rows, one);
@@ -205,126 +162,177 @@ ContactForces ContactMechanics::solve(const ContactStates& states, const std::ve
     result.changes.assign(symbols_.size(), zero);
     result.normal.assign(states.size(), zero);
     result.tangential.assign(states.size(), zero);
-    for (std::size_t i = 0, row = 0; i < states.size(); ++i) {
-        if (states[i] == ContactState::open)
-            continue;
-        const auto add = [&](const Expression& force) {
-            for (std::size_t k = 0; k < symbols_.size(); ++k)
-                result.changes[k] = result.changes[k] + columns[row][k] * force;
-            ++row;
-            return force;
-        };
-        result.normal[i] = add(rows[row].back());
-        if (states[i] == ContactState::stick && carried_by[i] == i)
-            result.tangential[i] = add(rows[row].back());
-        else if (is_slip(states[i]))
-            result.tangential[i] =
-                (states[i] == ContactState::forward ? -friction_[i] : friction_[i]) * result.normal[i];
+    for (std::size_t row = 0; row < equations.size(); ++row) {
+        const Expression& force = rows[row].back();
+        for (std::size_t k = 0; k < symbols_.size(); ++k)
+            result.changes[k] = result.changes[k] + columns[row][k] * force;
+        const std::size_t i = equations[row] / 2;
+        (equations[row] % 2 == 0 ? result.normal : result.tangential)[i] = force;
+        if (is_slip(states[i]))
+            result.tangential[i] = (states[i] == ContactState::forward ? -friction_[i] : friction_[i]) * force;
     }
-    result.limit.assign(states.size(), zero);
-    for (std::size_t i = 0; i < states.size(); ++i)
-        if (states[i] == ContactState::stick)
-            result.limit[carried_by[i]] = result.limit[carried_by[i]] + friction_[i] * result.normal[i];
-    for (std::size_t i = 0; i < states.size(); ++i)
-        if (carried_by[i] != i) {
-            result.parallel.push_back(same_direction(*slip_[i], *slip_[carried_by[i]]));
-            if (const Expression apart = this->apart(i, carried_by[i]); !apart.is_number(0))
-                result.apart.push_back(apart);
+    add_limits(states, held, result);
+    for (const auto& [contact, dependence] : held.following) {
+        Expression difference = tangential_changes[contact], squares = difference * difference;
+        for (std::size_t k = 0; k < dependence.shares.size(); ++k) {
+            const std::size_t i = held.directions[k] / 2;
+            const Expression part =
+                dependence.shares[k] * (held.directions[k] % 2 == 0 ? normal_changes : tangential_changes)[i];
+            difference = difference - part;
+            squares = squares + part * part;
         }
+        result.joint.push_back(dependence.same);
+        result.differences.push_back(difference);
+        result.apart.push_back(ContactDirections::apart(difference, squares));
+    }
     return result;
 }
 
-/// Returns an expression that is positive where two directions differ by round-off.
-Expression ContactMechanics::same_direction(const ContactDirection& one, const ContactDirection& other) const {
-    constexpr double same = 1e-12; // of the square of the difference
-    Expression difference = model_.number(0);
-    for (std::size_t k = 0; k < symbols_.size(); ++k)
-        difference = difference + (one.slopes[k] - other.slopes[k]) * (one.response[k] - other.response[k]);
-    return along(one, one.response) * same - difference;
-}
-
-/// Returns the part of a slip that no velocity of the model makes, such as the speed of a belt.
-Expression ContactMechanics::without_velocities(const Expression& slip) const {
-    std::vector<Replacement> replacements;
-    for (const Expression& symbol : symbols_)
-        replacements.emplace_back(symbol, model_.number(0));
-    return substitute(slip, replacements);
-}
-
-Expression ContactMechanics::apart(std::size_t one, std::size_t other) const {
-    constexpr double same = 1e-24; // of the square of the difference
-    const Expression first = without_velocities(slip_[one]->velocity),
-                     second = without_velocities(slip_[other]->velocity), difference = first - second;
-    if (first == second || difference.is_number(0))
-        return model_.number(0);
-    return difference * difference - same * (first * first + second * second);
-}
-
 ContactForces ContactMechanics::forces(const ContactStates& states) const {
-    std::vector<Expression> normal, tangential;
+    std::vector<Expression> normal_changes, tangential_changes;
     for (std::size_t i = 0; i < states.size(); ++i) {
-        normal.push_back(-normal_[i].acceleration);
-        tangential.push_back(slip_[i] ? -slip_[i]->acceleration : model_.number(0));
+        normal_changes.push_back(-normal(i).acceleration);
+        tangential_changes.push_back(rubs(i) ? -slip(i).acceleration : model_.number(0));
     }
-    return solve(states, normal, tangential);
+    ContactForces result = solve(states, normal_changes, tangential_changes);
+    result.differences.clear();
+    result.apart.clear();
+    const Held held = this->held(states).value();
+    for (const auto& [contact, dependence] : held.following)
+        if (!dependence.apart.is_number(0))
+            result.apart.push_back(dependence.apart);
+    return result;
 }
 
-std::optional<std::vector<std::size_t>> ContactMechanics::carriers(const ContactStates& states) const {
-    std::vector<std::size_t> held, result, sticking;
+/// Adds the ends of contact and of rest. A force of friction that may be chosen changes those of other contacts that
+/// hold the same velocities.
+void ContactMechanics::add_limits(const ContactStates& states, const Held& held, ContactForces& to) const {
+    std::vector<SharedContact> shared;
     for (std::size_t i = 0; i < states.size(); ++i) {
-        result.push_back(i);
-        if (states[i] != ContactState::open)
-            held.push_back(2 * i);
+        if (states[i] == ContactState::open)
+            continue;
+        const bool sticks = states[i] == ContactState::stick;
+        SharedContact one{i, sticks, friction_[i], {to.normal[i], {}}, {to.tangential[i], {}}};
+        bool changes = false;
+        for (const auto& [contact, dependence] : held.following) {
+            one.normal.by.push_back(-held.share(dependence, 2 * i, model_.number(0)));
+            one.tangential.by.push_back(
+                contact == i ? model_.number(1)
+                             : (sticks ? -held.share(dependence, 2 * i + 1, model_.number(0)) : model_.number(0)));
+            changes = changes || !one.normal.by.back().is_number(0) || !one.tangential.by.back().is_number(0);
+        }
+        if (changes) {
+            shared.push_back(std::move(one));
+            continue;
+        }
+        to.limits.push_back({to.normal[i], {{i, ContactState::open}}});
+        if (sticks)
+            for (const ContactState beyond : {ContactState::forward, ContactState::backward}) {
+                const Expression most = friction_[i] * to.normal[i];
+                to.limits.push_back(
+                    {beyond == ContactState::forward ? most + to.tangential[i] : most - to.tangential[i],
+                     {{i, beyond}}});
+            }
     }
-    if (!independent(held))
+    JointLimits joint = joint_limits(model_, shared);
+    to.limits.insert(to.limits.end(), joint.limits.begin(), joint.limits.end());
+    std::ranges::stable_sort(to.limits, {}, [](const ContactLimit& limit) { return limit.beyond.front(); });
+    to.joint = std::move(joint.regular);
+}
+
+bool ContactMechanics::Held::follows(std::size_t contact) const {
+    return std::ranges::any_of(following, [&](const auto& one) { return one.first == contact; });
+}
+
+Expression ContactMechanics::Held::share(const DirectionDependence& dependence, std::size_t direction,
+                                         const Expression& zero) const {
+    const auto found = std::ranges::find(directions, direction);
+    const auto k = static_cast<std::size_t>(found - directions.begin());
+    return found == directions.end() || k >= dependence.shares.size() ? zero : dependence.shares[k];
+}
+
+std::optional<ContactMechanics::Held> ContactMechanics::held(const ContactStates& states) const {
+    Held result;
+    for (std::size_t i = 0; i < states.size(); ++i)
+        if (states[i] != ContactState::open)
+            result.directions.push_back(2 * i);
+    if (!directions_.independent(result.directions))
         return std::nullopt;
     for (std::size_t i = 0; i < states.size(); ++i) {
         if (states[i] != ContactState::stick)
             continue;
-        held.push_back(2 * i + 1);
-        if (!independent(held)) {
-            if (sticking.empty())
-                return std::nullopt;
-            held.pop_back();
-            result[i] = sticking.front();
-            const Expression apart = this->apart(i, result[i]);
-            for (const Expression& state : model_.state_symbols())
-                if (contains_symbol(apart, state))
-                    return std::nullopt;
-        } else {
-            sticking.push_back(i);
+        const auto dependence = directions_.dependence(2 * i + 1, result.directions);
+        if (!dependence) {
+            result.directions.push_back(2 * i + 1);
+            continue;
         }
+        for (const Expression& state : model_.state_symbols())
+            if (contains_symbol(dependence->apart, state))
+                return std::nullopt;
+        for (std::size_t k = 0; k < dependence->shares.size(); ++k)
+            if (!dependence->shares[k].is_number(0) && is_slip(states[result.directions[k] / 2]))
+                return std::nullopt; // how friction is shared would change the motion
+        result.following.emplace_back(i, *dependence);
     }
     return result;
 }
 
-/// Evaluates the products of all directions at the initial state: normals at even, slips at odd indices.
-void ContactMechanics::note_products() {
-    std::vector<Expression> entries;
-    for (std::size_t i = 0; i < 2 * size(); ++i)
-        for (std::size_t j = 0; j < 2 * size(); ++j) {
-            const bool both = (i % 2 == 0 || rubs(i / 2)) && (j % 2 == 0 || rubs(j / 2));
-            const auto direction = [&](std::size_t k) -> const ContactDirection& {
-                return k % 2 == 0 ? normal_[k / 2] : *slip_[k / 2];
-            };
-            entries.push_back(both ? along(direction(i), direction(j).response) : model_.number(0));
-        }
-    products_ = values_at_start(model_, entries);
-    if (std::ranges::any_of(products_, [](double value) { return !std::isfinite(value); }))
-        products_.clear(); // `validate` tells what is wrong with the initial state
+bool ContactMechanics::can_slip(const ContactStates& states) const {
+    const auto held = this->held(states);
+    if (!held)
+        return false;
+    std::vector<std::size_t> slipping;
+    for (std::size_t i = 0; i < states.size(); ++i)
+        if (is_slip(states[i]))
+            slipping.push_back(i);
+    const auto sign = [&](std::size_t contact) { return states[contact] == ContactState::forward ? 1 : -1; };
+    for (std::size_t set = 1; set < std::size_t{1} << slipping.size(); ++set) {
+        std::vector<std::size_t> others = held->directions, members;
+        for (std::size_t k = 0; k < slipping.size(); ++k)
+            if ((set >> k & 1U) != 0)
+                members.push_back(slipping[k]);
+        const std::size_t last = members.back();
+        members.pop_back();
+        for (const std::size_t contact : members)
+            others.push_back(2 * contact + 1);
+        if (!directions_.independent(others))
+            continue;
+        const auto follows = directions_.dependence(2 * last + 1, others);
+        if (!follows || !follows->everywhere || !follows->apart.is_number(0))
+            continue;
+        bool against = true; // all parts of the last slip have the direction that it has not
+        for (std::size_t k = 0; k < members.size(); ++k)
+            against = against &&
+                      follows->at_start[held->directions.size() + k] * sign(members[k]) * sign(last) < negligible_share;
+        if (against)
+            return false;
+    }
+    return true;
 }
 
-/// A small pivot of the matrix of products means that one direction follows from others.
-bool ContactMechanics::independent(const std::vector<std::size_t>& directions) const {
-    constexpr double dependent = 1e-9;
-    if (products_.empty())
-        return true;
-    const std::size_t n = directions.size();
-    std::vector<double> matrix;
-    for (const std::size_t i : directions)
-        for (const std::size_t j : directions)
-            matrix.push_back(products_[i * 2 * normal_.size() + j]);
-    return has_positive_pivots(std::move(matrix), n, dependent);
+std::optional<ContactMechanics::FollowingSlip> ContactMechanics::following_slip(std::size_t contact,
+                                                                                ContactStates states) const {
+    states[contact] = ContactState::closed;
+    const auto held = this->held(states);
+    if (!held)
+        return std::nullopt;
+    std::vector<std::size_t> others = held->directions;
+    if (const auto follows = directions_.dependence(2 * contact + 1, others); follows && follows->everywhere)
+        return FollowingSlip{ContactState::stick, follows->apart};
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        if (!is_slip(states[i]))
+            continue;
+        others.push_back(2 * i + 1);
+        if (directions_.independent(others))
+            if (const auto follows = directions_.dependence(2 * contact + 1, others); follows && follows->everywhere) {
+                const bool same = follows->at_start.back() > 0;
+                return FollowingSlip{same == (states[i] == ContactState::forward) ? ContactState::forward
+                                                                                  : ContactState::backward,
+                                     follows->apart};
+            }
+        others.pop_back();
+    }
+    return std::nullopt;
 }
 
 } // namespace graze

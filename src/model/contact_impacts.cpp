@@ -82,23 +82,24 @@ bool ContactImpacts::solve_at_once(const Meeting& meeting, ContactImpact& impact
         if (!meeting.takes_part(i))
             continue;
         if (impact.active[i] == ContactState::open) {
-            require(mechanics.along(mechanics.normal(i), impact.changes) - normal[i]);
+            require(mechanics.normal(i).along(impact.changes) - normal[i]);
             continue;
         }
-        require(impulses.normal[i]);
-        if (impact.active[i] == ContactState::stick) {
-            require(impulses.limit[i] - impulses.tangential[i]);
-            require(impulses.limit[i] + impulses.tangential[i]);
-        } else if (is_slip(impact.active[i])) {
+        for (const ContactLimit& limit : impulses.limits)
+            if (limit.beyond.front().first == i)
+                require(limit.function);
+        if (is_slip(impact.active[i])) {
             const Expression before = moreau ? (1.0 + restitution(i)) * meeting.slip(i) : meeting.slip(i);
-            const Expression slip = before + mechanics.along(mechanics.slip(i), impact.changes);
+            const Expression slip = before + mechanics.slip(i).along(impact.changes);
             require(impact.active[i] == ContactState::forward ? slip : -slip);
         }
     }
-    for (const Expression& one : impulses.parallel)
+    for (const Expression& one : impulses.joint)
         require(one);
-    for (const Expression& one : impulses.apart)
-        require(-one);
+    const std::vector<bool> agree = meeting.vanishing->of(impulses.differences);
+    for (std::size_t k = 0; k < agree.size(); ++k)
+        if (!agree[k])
+            require(-impulses.apart[k]);
     meeting.remove_vanishing(impact.when);
     return possible;
 }
@@ -122,7 +123,7 @@ bool ContactImpacts::solve_poisson(const Meeting& meeting, const ContactStates& 
         if (!meeting.takes_part(i))
             continue;
         if (compressed[i] == ContactState::open) {
-            require(mechanics.along(mechanics.normal(i), first.changes) - wanted[i]);
+            require(mechanics.normal(i).along(first.changes) - wanted[i]);
             continue;
         }
         require(first.normal[i]);
@@ -132,16 +133,15 @@ bool ContactImpacts::solve_poisson(const Meeting& meeting, const ContactStates& 
     }
     std::vector<Expression> left;
     for (std::size_t i = 0; i < compressed.size(); ++i)
-        left.push_back(meeting.takes_part(i)
-                           ? -(meeting.normal(i) + mechanics.along(mechanics.normal(i), impact.changes))
-                           : meeting.zero);
+        left.push_back(meeting.takes_part(i) ? -(meeting.normal(i) + mechanics.normal(i).along(impact.changes))
+                                             : meeting.zero);
     const ContactForces more = mechanics.solve(impact.active, left, left);
     const std::vector<bool> takes_none = meeting.vanishing->of(more.normal);
     for (std::size_t i = 0; i < compressed.size(); ++i) {
         if (!meeting.takes_part(i))
             continue;
         if (impact.active[i] == ContactState::open)
-            require(mechanics.along(mechanics.normal(i), more.changes) - left[i]);
+            require(mechanics.normal(i).along(more.changes) - left[i]);
         else if (takes_none[i]) // the same as with this contact open
             return false;
         else
@@ -160,16 +160,15 @@ void ContactImpacts::note_after(const Meeting& meeting, ContactImpact& impact) c
     const ImpactLaw law = model_.contact_settings.law;
     std::vector<Expression> velocities; // normal and tangential ones of all contacts, after the impact
     for (std::size_t i = 0; i < impact.active.size(); ++i) {
-        velocities.push_back(mechanics.normal(i).velocity + mechanics.along(mechanics.normal(i), impact.changes));
-        velocities.push_back(mechanics.rubs(i)
-                                 ? mechanics.slip(i).velocity + mechanics.along(mechanics.slip(i), impact.changes)
-                                 : model_.number(1));
+        velocities.push_back(mechanics.normal(i).velocity + mechanics.normal(i).along(impact.changes));
+        velocities.push_back(mechanics.rubs(i) ? mechanics.slip(i).velocity + mechanics.slip(i).along(impact.changes)
+                                               : model_.number(1));
     }
     const std::vector<bool> vanishes = meeting.vanishing->of(velocities);
     std::vector<std::size_t> held;
     const auto note_zero = [&](std::size_t direction, const Expression& velocity) {
         held.push_back(direction);
-        if (mechanics.independent(held))
+        if (mechanics.directions().independent(held))
             impact.zero.push_back(velocity);
         else // it follows from the others
             held.pop_back();
@@ -300,7 +299,7 @@ StateMap ContactImpacts::rest(std::size_t base, const ContactStates& closed, con
         tangential.push_back(sticks ? -meeting.slip(i) : meeting.zero);
         if (after[i] != ContactState::open)
             zero.push_back(meeting.mechanics.normal(i).velocity);
-        if (sticks)
+        if (sticks && !meeting.mechanics.follows(after, i))
             zero.push_back(meeting.mechanics.slip(i).velocity);
     }
     StateMap map = modes_.velocity_map(meeting.mechanics.solve(after, normal, tangential).changes, zero);

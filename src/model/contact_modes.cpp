@@ -136,7 +136,7 @@ void ContactModes::require_separate_contacts() {
         std::vector<Expression> entries;
         for (const std::size_t i : members)
             for (const std::size_t j : members)
-                entries.push_back(one.along(one.normal(i), one.normal(j).response));
+                entries.push_back(one.normal(i).along(one.normal(j).response));
         std::vector<Expression> gaps;
         for (const std::size_t i : members)
             gaps.push_back(one.gap(i));
@@ -175,6 +175,11 @@ bool ContactModes::possible(std::size_t base, const ContactStates& states) {
     return possible_[{base, states}] = mechanics(base).independent(states);
 }
 
+bool ContactModes::moves(std::size_t base, const ContactStates& states) {
+    const auto [known, added] = moves_.emplace(std::pair(base, states), false);
+    return known->second = added ? mechanics(base).can_slip(states) : known->second;
+}
+
 const ContactVariant& ContactModes::variant(std::size_t base, const ContactStates& states) {
     const auto known = variants_.find({base, states});
     if (known != variants_.end())
@@ -203,12 +208,12 @@ ContactVariant ContactModes::made(std::size_t base, const ContactStates& states)
     for (std::size_t i = 0; i < states.size(); ++i) {
         if (states[i] != ContactState::open)
             motion_.add_surface(free.normal(i).velocity, velocities);
-        if (states[i] == ContactState::stick)
+        if (states[i] == ContactState::stick && !free.follows(states, i))
             motion_.add_surface(free.slip(i).velocity, velocities);
     }
     for (std::size_t i = 0; i < states.size(); ++i) {
         const auto accelerated = [&](const ContactDirection& direction) {
-            return motion_.on_surface(direction.acceleration + free.along(direction, result.force.changes));
+            return motion_.on_surface(direction.acceleration + direction.along(result.force.changes));
         };
         result.normal_acceleration.push_back(accelerated(free.normal(i)));
         result.slip_acceleration.push_back(free.rubs(i) ? accelerated(free.slip(i)) : model_.number(0));
@@ -223,9 +228,11 @@ ContactVariant ContactModes::made(std::size_t base, const ContactStates& states)
         mode.text = model_.modes[base].text;
         mode.rates = motion_.tangent(std::move(field));
     }
-    for (auto* forces : {&result.force.normal, &result.force.tangential, &result.force.regular, &result.force.limit,
-                         &result.force.parallel, &result.force.apart})
+    for (auto* forces : {&result.force.normal, &result.force.tangential, &result.force.regular, &result.force.joint,
+                         &result.force.apart})
         *forces = motion_.on_surface(*forces);
+    for (ContactLimit& limit : result.force.limits)
+        limit.function = motion_.on_surface(limit.function);
     return result;
 }
 

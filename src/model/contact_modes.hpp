@@ -38,8 +38,10 @@ public:
     }
     /// Returns whether contacts can be in these states at once: directions are independent.
     bool possible(std::size_t base, const ContactStates& states);
+    /// Returns whether they also can move so, while they stay closed: slips that depend on one another.
+    bool moves(std::size_t base, const ContactStates& states);
     /// Returns the variant, whose mode gets its rates now. Its events and transitions are made later.
-    /// @param states a possible combination
+    /// @param states a combination that moves
     const ContactVariant& variant(std::size_t base, const ContactStates& states);
     /// Returns the variants that have been asked for and are not complete; they then count as complete.
     std::vector<std::pair<std::size_t, ContactStates>> take_new();
@@ -63,7 +65,7 @@ private:
     std::vector<std::size_t> gap_events_;
     std::vector<std::array<std::size_t, 2>> stop_events_;
     std::map<std::pair<std::size_t, ContactStates>, ContactVariant> variants_;
-    std::map<std::pair<std::size_t, ContactStates>, bool> possible_;
+    std::map<std::pair<std::size_t, ContactStates>, bool> possible_, moves_;
     std::vector<std::pair<std::size_t, ContactStates>> new_;
 };
 
