@@ -1,5 +1,7 @@
 #include "model/contact_choice.hpp"
 
+#include "base/special_numbers.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -121,6 +123,13 @@ void ContactChoice::add_by_forces(std::vector<Alternative>& to, const Alternativ
     }
 }
 
+/// Contacts that hold together exactly at their limit, as where a push is greatest, must not be left without a mode by
+/// round-off: a slip has other terms. The arc that begins there sees to which side the limit is left.
+Expression ContactChoice::with_roundoff(const ContactLimit& limit) {
+    constexpr double roundoff = 64 * epsilon;
+    return limit.squares.is_number(0) ? limit.function : limit.function + roundoff * sqrt(limit.squares);
+}
+
 void ContactChoice::add_consistent(std::vector<Alternative>& to, const Alternative& given, std::size_t base,
                                    const ContactsKnowledge& known, const ContactStates& states) {
     const ContactVariant& there = modes_.variant(base, states);
@@ -139,7 +148,7 @@ void ContactChoice::add_consistent(std::vector<Alternative>& to, const Alternati
         }
         for (const ContactLimit& limit : there.force.limits)
             if (limit.beyond.front().first == i)
-                require(limit.function);
+                require(with_roundoff(limit));
         if (states[i] == ContactState::stick) {
             word = "sticks";
         } else if (is_slip(states[i])) {

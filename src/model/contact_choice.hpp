@@ -43,6 +43,7 @@ private:
     bool follow_others(std::size_t base, ContactsKnowledge& known, std::size_t contact);
     void add_by_forces(std::vector<Alternative>& to, const Alternative& given, std::size_t base,
                        const ContactsKnowledge& known);
+    static Expression with_roundoff(const ContactLimit& limit);
     void add_consistent(std::vector<Alternative>& to, const Alternative& given, std::size_t base,
                         const ContactsKnowledge& known, const ContactStates& states);
 

@@ -225,13 +225,14 @@ void ContactMechanics::add_limits(const ContactStates& states, const Held& held,
             shared.push_back(std::move(one));
             continue;
         }
-        to.limits.push_back({to.normal[i], {{i, ContactState::open}}});
+        to.limits.push_back({to.normal[i], {{i, ContactState::open}}, model_.number(0)});
         if (sticks)
             for (const ContactState beyond : {ContactState::forward, ContactState::backward}) {
                 const Expression most = friction_[i] * to.normal[i];
                 to.limits.push_back(
                     {beyond == ContactState::forward ? most + to.tangential[i] : most - to.tangential[i],
-                     {{i, beyond}}});
+                     {{i, beyond}},
+                     model_.number(0)});
             }
     }
     JointLimits joint = joint_limits(model_, shared);

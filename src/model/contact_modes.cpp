@@ -231,8 +231,10 @@ ContactVariant ContactModes::made(std::size_t base, const ContactStates& states)
     for (auto* forces : {&result.force.normal, &result.force.tangential, &result.force.regular, &result.force.joint,
                          &result.force.apart})
         *forces = motion_.on_surface(*forces);
-    for (ContactLimit& limit : result.force.limits)
+    for (ContactLimit& limit : result.force.limits) {
         limit.function = motion_.on_surface(limit.function);
+        limit.squares = motion_.on_surface(limit.squares);
+    }
     return result;
 }
 

@@ -29,8 +29,7 @@ std::vector<std::string> coupled_contacts(const Model& model) {
         for (std::size_t j = i + 1; j < mechanics.size(); ++j) {
             ContactStates both(mechanics.size(), ContactState::open);
             both[i] = both[j] = ContactState::closed;
-            if (!mechanics.normal(i).along(mechanics.normal(j).response).is_number(0) &&
-                mechanics.independent(both))
+            if (!mechanics.normal(i).along(mechanics.normal(j).response).is_number(0) && mechanics.independent(both))
                 pairs.push_back(fmt::format("{} and {}", model.contacts[i].name, model.contacts[j].name));
         }
     return pairs;

@@ -19,7 +19,7 @@ constexpr double zero_share = 1e-9; ///< of numbers that are of the order of one
 struct Row {
     std::size_t contact = 0;
     ContactState beyond = ContactState::open;
-    Expression fixed{};
+    Expression fixed{}, squares{}; ///< and those of the terms of `fixed`
     std::vector<Expression> by{};
     std::vector<double> at_start{};
 };
@@ -102,7 +102,8 @@ public:
 private:
     void add_rows(const SharedContact& one) {
         if (!one.sticks) {
-            rows_.push_back({one.contact, ContactState::open, one.normal.fixed, one.normal.by});
+            rows_.push_back(
+                {one.contact, ContactState::open, one.normal.fixed, pow(one.normal.fixed, 2), one.normal.by});
             return;
         }
         for (const ContactState beyond : {ContactState::forward, ContactState::backward}) {
@@ -110,7 +111,9 @@ private:
             const auto row = [&](const Expression& normal, const Expression& tangential) {
                 return forward ? one.friction * normal + tangential : one.friction * normal - tangential;
             };
-            Row& made = rows_.emplace_back(Row{one.contact, beyond, row(one.normal.fixed, one.tangential.fixed)});
+            Row& made = rows_.emplace_back(
+                Row{one.contact, beyond, row(one.normal.fixed, one.tangential.fixed),
+                    pow(one.friction * one.normal.fixed, 2) + pow(one.tangential.fixed, 2)});
             for (std::size_t k = 0; k < chosen_; ++k)
                 made.by.push_back(row(one.normal.by[k], one.tangential.by[k]));
         }
@@ -178,9 +181,11 @@ private:
     ContactLimit limit_of(const std::vector<std::size_t>& rows) const {
         ContactLimit result;
         ExpressionMatrix matrix; // fixed parts, then coefficients
+        std::vector<Expression> squares;
         Numbers numbers;
         std::size_t positive = 0; // a row with a positive factor
-        const auto add = [&](const Expression& fixed, const std::vector<Expression>& by) {
+        const auto add = [&](const Expression& fixed, const Expression& square, const std::vector<Expression>& by) {
+            squares.push_back(square);
             matrix.push_back({fixed});
             matrix.back().insert(matrix.back().end(), by.begin(), by.end());
             numbers.push_back(values_at_start(model_, by));
@@ -190,11 +195,11 @@ private:
             const bool both = k + 1 < rows.size() && rows_[rows[k + 1]].contact == one.contact;
             if (both) {
                 positive = matrix.size();
-                add(one.normal.fixed, one.normal.by);
-                add(one.tangential.fixed, one.tangential.by);
+                add(one.normal.fixed, pow(one.normal.fixed, 2), one.normal.by);
+                add(one.tangential.fixed, pow(one.tangential.fixed, 2), one.tangential.by);
                 ++k;
             } else {
-                add(rows_[rows[k]].fixed, rows_[rows[k]].by);
+                add(rows_[rows[k]].fixed, rows_[rows[k]].squares, rows_[rows[k]].by);
             }
             result.beyond.emplace_back(one.contact, both ? ContactState::open : rows_[rows[k]].beyond);
         }
@@ -218,6 +223,14 @@ private:
             best = std::abs(factor);
             const Expression combination = determinant(part, model_.number(1));
             result.function = factor >= 0 ? combination : -combination;
+            result.squares = model_.number(0);
+            for (std::size_t i = 0; i < part.size(); ++i) {
+                ExpressionMatrix minor;
+                for (std::size_t k = 0; k < part.size(); ++k)
+                    if (k != i)
+                        minor.emplace_back(part[k].begin() + 1, part[k].end());
+                result.squares = result.squares + squares[i] * pow(determinant(minor, model_.number(1)), 2);
+            }
         }
         return result;
     }

@@ -22,6 +22,8 @@ struct ContactLimit {
     Expression function{}; ///< not negative while contacts hold
     /// What these contacts do beyond: open, or slip forward or backward.
     std::vector<std::pair<std::size_t, ContactState>> beyond{};
+    /// Of forces that contacts share: the sum of the squares of its terms, for an estimate of round-off; otherwise 0.
+    Expression squares{};
 };
 
 /// A force that depends on how friction is shared by contacts that stick together.
