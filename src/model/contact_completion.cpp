@@ -250,10 +250,10 @@ private:
         for (const std::size_t contact : closing)
             if (after[contact] == ContactState::open) // another contact keeps this one open, but normal speeds vanish
                 after[contact] = rest_beside_others(base, after, contact);
-        for (std::size_t i = 0; i < after.size(); ++i)
-            if (is_slip(after[i]))
-                if (const auto follows = modes_.mechanics(base).following_slip(i, after))
-                    after[i] = follows->state;
+        if (!modes_.moves(base, after)) // the last impulses of a contact, which is almost closed, say no more of its slip
+            for (const std::size_t contact : closing)
+                if (after[contact] != ContactState::closed)
+                    after[contact] = rest_beside_others(base, after, contact);
         if (!modes_.moves(base, after))
             return;
         for (std::size_t i = 0; i < after.size(); ++i)
@@ -378,17 +378,19 @@ private:
     /// Names the end of a rest that contacts hold together: by the first one if all of them begin to slip.
     std::string joint_name(std::size_t base, const ContactVariant& variant, const ContactLimit& limit,
                            const ContactStates& beyond) {
-        std::string name;
-        for (const auto& [contact, state] : limit.beyond)
+        std::string name, first;
+        for (const auto& [contact, state] : limit.beyond) {
             name += (name.empty() ? "" : "-") + contact_name(contact) +
                     (state == ContactState::open ? "-opens" : contact_words("", state).substr(1));
+            if (first.empty())
+                first = name;
+        }
         const bool all = std::ranges::all_of(variant.force.limits, [&](const ContactLimit& other) {
             return other.beyond.size() == 1 ||
                    std::ranges::all_of(other.beyond, [&](const auto& one) { return is_slip(beyond[one.first]); });
         });
-        return all && modes_.moves(base, beyond)
-                   ? contact_name(limit.beyond.front().first) + contact_words("", limit.beyond.front().second).substr(1)
-                   : name;
+        const bool known = model_.find_event(fmt::format("{}-{}", mode_name(variant.mode), first)).has_value();
+        return all && !known && modes_.moves(base, beyond) ? first : name;
     }
 
     /// Others whose slips follow from this one come to rest at once, unless their slips have different zeros.

@@ -110,7 +110,8 @@ std::vector<Expression> ContactDirections::shares(std::size_t direction, const s
 
 DirectionDependence ContactDirections::dependence_of(std::size_t direction,
                                                      const std::vector<std::size_t>& others) const {
-    constexpr double same = 1e-12; // of the squares of directions
+    constexpr double same = 1e-12, roundoff = 1e-13; // of the squares of directions; of directions
+    const auto size = [&](std::size_t i) { return std::sqrt(products_[i * (directions_.size() + 1)]); };
     std::vector<Expression> closed;
     for (const std::size_t other : others)
         if (other % 2 == 0)
@@ -124,7 +125,8 @@ DirectionDependence ContactDirections::dependence_of(std::size_t direction,
     Expression difference = first, squares = first * first;
     for (std::size_t k = 0; k < others.size(); ++k) {
         Expression& share = result.shares[k];
-        if (none[k])
+        if (none[k] ||
+            (share.is_number() && std::abs(share.node().value) * size(others[k]) <= roundoff * size(direction)))
             share = model_.number(0);
         if (share.is_number(0))
             continue;
@@ -138,11 +140,14 @@ DirectionDependence ContactDirections::dependence_of(std::size_t direction,
     }
     result.at_start = values_at_start(model_, result.shares);
     const std::vector<bool> follows = vanishing.of(slopes);
-    result.everywhere = std::ranges::find(follows, false) == follows.end();
     Expression square = model_.number(0);
     for (std::size_t i = 0; i < slopes.size(); ++i)
         square = square + slopes[i] * response[i];
-    result.same = result.everywhere ? model_.number(1) : one.along(one.response) * same - square;
+    result.same = one.along(one.response) * same - square;
+    result.everywhere = std::ranges::find(follows, false) == follows.end() ||
+                        (result.same.is_number() && result.same.node().value > 0); // numbers have round-off, too
+    if (result.everywhere)
+        result.same = model_.number(1);
     result.apart = apart(difference, squares);
     const bool agree = difference.is_number(0) || vanishing.of({&difference, 1}).front();
     if (agree || (result.apart.is_number() && result.apart.node().value <= 0))

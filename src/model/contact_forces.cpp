@@ -280,7 +280,10 @@ std::optional<ContactMechanics::Held> ContactMechanics::held(const ContactStates
 
 bool ContactMechanics::can_slip(const ContactStates& states) const {
     const auto held = this->held(states);
-    if (!held)
+    if (!held || std::ranges::any_of(held->following, [](const auto& one) {
+            const Expression& apart = one.second.apart;
+            return apart.is_number() && !apart.is_number(0); // belts of different speeds
+        }))
         return false;
     std::vector<std::size_t> slipping;
     for (std::size_t i = 0; i < states.size(); ++i)

@@ -48,7 +48,7 @@ std::optional<std::size_t> Trajectory::transition_to_rest(std::size_t event, std
     if (known && model.transitions[*known].chatter && model.transitions[*known].derived) {
         best = known;
         least = far_less * change_by_rest(model.transitions[*known]);
-    } else if (known) {
+    } else if (known && !model.transitions[*known].derived) {
         return known;
     }
     const std::vector<std::size_t> also = known ? model.transitions[*known].also : std::vector<std::size_t>{};
@@ -64,7 +64,7 @@ std::optional<std::size_t> Trajectory::transition_to_rest(std::size_t event, std
             least = change;
         }
     }
-    return best;
+    return best ? best : known;
 }
 
 } // namespace graze
