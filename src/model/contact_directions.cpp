@@ -2,7 +2,6 @@
 
 #include "graze/symbolic/transform.hpp"
 #include "model/expression_matrix.hpp"
-#include "model/model_completion.hpp"
 #include "model/vanishing.hpp"
 
 #include <algorithm>
@@ -38,11 +37,12 @@ void ContactDirections::add_contact(ContactDirection normal, std::optional<Conta
 void ContactDirections::note(std::vector<Expression> velocities, std::vector<Expression> gaps) {
     velocities_ = std::move(velocities);
     gaps_ = std::move(gaps);
+    start_ = StartValues(model_);
     std::vector<Expression> entries;
     for (std::size_t i = 0; i < directions_.size(); ++i)
         for (std::size_t j = 0; j < directions_.size(); ++j)
             entries.push_back(has(i) && has(j) ? (*this)[i].along((*this)[j].response) : model_.number(0));
-    products_ = values_at_start(model_, entries);
+    products_ = start_.of(entries);
     if (std::ranges::any_of(products_, [](double value) { return !std::isfinite(value); }))
         products_.clear(); // `validate` tells what is wrong with the initial state
 }
@@ -138,7 +138,7 @@ DirectionDependence ContactDirections::dependence_of(std::size_t direction,
         difference = difference == second ? model_.number(0) : difference - second;
         squares = squares + second * second;
     }
-    result.at_start = values_at_start(model_, result.shares);
+    result.at_start = start_.of(result.shares);
     const std::vector<bool> follows = vanishing.of(slopes);
     Expression square = model_.number(0);
     for (std::size_t i = 0; i < slopes.size(); ++i)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/model/model.hpp"
+#include "model/start_values.hpp"
 
 #include <cstddef>
 #include <map>
@@ -49,6 +50,7 @@ public:
     /// @param gaps of the contacts, expanded
     void note(std::vector<Expression> velocities, std::vector<Expression> gaps);
 
+    const StartValues& start() const { return start_; }
     std::size_t contacts() const { return directions_.size() / 2; }
     bool has(std::size_t direction) const { return directions_[direction].has_value(); }
     const ContactDirection& operator[](std::size_t direction) const { return *directions_[direction]; }
@@ -73,6 +75,7 @@ private:
     const Model& model_;
     std::vector<Expression> velocities_, gaps_;
     std::vector<std::optional<ContactDirection>> directions_;
+    StartValues start_;
     std::vector<double> products_; ///< of all directions, row by row; none if they are not defined
     /// What has been asked before: the same questions come for each combination of contacts.
     mutable std::map<std::pair<std::size_t, std::vector<std::size_t>>, DirectionDependence> known_;

@@ -235,7 +235,7 @@ void ContactMechanics::add_limits(const ContactStates& states, const Held& held,
                      model_.number(0)});
             }
     }
-    JointLimits joint = joint_limits(model_, shared);
+    JointLimits joint = joint_limits(directions_.start(), shared);
     to.limits.insert(to.limits.end(), joint.limits.begin(), joint.limits.end());
     std::ranges::stable_sort(to.limits, {}, [](const ContactLimit& limit) { return limit.beyond.front(); });
     to.joint = std::move(joint.regular);

@@ -2,7 +2,6 @@
 
 #include "graze/symbolic/transform.hpp"
 #include "model/expression_matrix.hpp"
-#include "model/model_completion.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -67,8 +66,9 @@ std::vector<std::size_t> sets(std::size_t n, std::size_t size) {
 
 class LimitFinder {
 public:
-    LimitFinder(const Model& model, const std::vector<SharedContact>& contacts)
-        : model_(model), contacts_(contacts), chosen_(contacts.front().normal.by.size()) {
+    LimitFinder(const StartValues& start, const std::vector<SharedContact>& contacts)
+        : start_(start), one_(contacts.front().normal.fixed.graph()->number(1)), contacts_(contacts),
+          chosen_(contacts.front().normal.by.size()) {
         for (const SharedContact& one : contacts)
             add_rows(one);
         note_start();
@@ -92,7 +92,7 @@ public:
                 symbols.push_back(rows_[row].by);
                 numbers.push_back(scaled_[row]);
             }
-            const Expression minor = determinant(symbols, model_.number(1));
+            const Expression minor = determinant(symbols, one_);
             if (const double value = determinant_of(numbers); std::abs(value) > zero_share && !minor.is_number())
                 result.regular.push_back(value > 0 ? minor : -minor);
         }
@@ -111,9 +111,8 @@ private:
             const auto row = [&](const Expression& normal, const Expression& tangential) {
                 return forward ? one.friction * normal + tangential : one.friction * normal - tangential;
             };
-            Row& made = rows_.emplace_back(
-                Row{one.contact, beyond, row(one.normal.fixed, one.tangential.fixed),
-                    pow(one.friction * one.normal.fixed, 2) + pow(one.tangential.fixed, 2)});
+            Row& made = rows_.emplace_back(Row{one.contact, beyond, row(one.normal.fixed, one.tangential.fixed),
+                                               pow(one.friction * one.normal.fixed, 2) + pow(one.tangential.fixed, 2)});
             for (std::size_t k = 0; k < chosen_; ++k)
                 made.by.push_back(row(one.normal.by[k], one.tangential.by[k]));
         }
@@ -123,7 +122,7 @@ private:
     void note_start() {
         std::vector<double> columns(chosen_, 0.0);
         for (Row& row : rows_) {
-            row.at_start = values_at_start(model_, row.by);
+            row.at_start = start_.of(row.by);
             for (std::size_t k = 0; k < chosen_; ++k)
                 columns[k] = std::max(columns[k], std::abs(row.at_start[k]));
         }
@@ -188,7 +187,7 @@ private:
             squares.push_back(square);
             matrix.push_back({fixed});
             matrix.back().insert(matrix.back().end(), by.begin(), by.end());
-            numbers.push_back(values_at_start(model_, by));
+            numbers.push_back(start_.of(by));
         };
         for (std::size_t k = 0; k < rows.size(); ++k) {
             const SharedContact& one = of(rows[k]);
@@ -221,21 +220,22 @@ private:
             if (best && std::abs(factor) <= *best)
                 continue;
             best = std::abs(factor);
-            const Expression combination = determinant(part, model_.number(1));
+            const Expression combination = determinant(part, one_);
             result.function = factor >= 0 ? combination : -combination;
-            result.squares = model_.number(0);
+            result.squares = one_.graph()->number(0);
             for (std::size_t i = 0; i < part.size(); ++i) {
                 ExpressionMatrix minor;
                 for (std::size_t k = 0; k < part.size(); ++k)
                     if (k != i)
                         minor.emplace_back(part[k].begin() + 1, part[k].end());
-                result.squares = result.squares + squares[i] * pow(determinant(minor, model_.number(1)), 2);
+                result.squares = result.squares + squares[i] * pow(determinant(minor, one_), 2);
             }
         }
         return result;
     }
 
-    const Model& model_;
+    const StartValues& start_;
+    Expression one_;
     const std::vector<SharedContact>& contacts_;
     std::size_t chosen_;
     std::vector<Row> rows_;
@@ -244,8 +244,8 @@ private:
 
 } // namespace
 
-JointLimits joint_limits(const Model& model, const std::vector<SharedContact>& contacts) {
-    return contacts.empty() ? JointLimits{} : LimitFinder(model, contacts).run();
+JointLimits joint_limits(const StartValues& start, const std::vector<SharedContact>& contacts) {
+    return contacts.empty() ? JointLimits{} : LimitFinder(start, contacts).run();
 }
 
 } // namespace graze

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/model/model.hpp"
+#include "model/start_values.hpp"
 
 #include <cstddef>
 #include <utility>
@@ -52,6 +53,6 @@ struct JointLimits {
 /// of friction, which are linear inequalities. These have a solution unless a positive combination of some of them in
 /// which the chosen forces cancel says otherwise (Farkas); each of the smallest such sets gives one limit.
 /// @param contacts those that one of the chosen forces changes
-JointLimits joint_limits(const Model& model, const std::vector<SharedContact>& contacts);
+JointLimits joint_limits(const StartValues& start, const std::vector<SharedContact>& contacts);
 
 } // namespace graze
