@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <random>
 #include <string>
 #include <utility>
+#include <vector>
 
 using namespace graze;
 using namespace graze::testing;
@@ -101,7 +103,12 @@ TEST(Belts, ImpactsDoNotStickToBoth) {
 /// A block with feet at two heights, which rub with the same coefficient and together carry the weight 1: whatever the
 /// shares, it moves as one mass, u' = p cos t - mu sgn u.
 TEST(Belts, FeetAtTwoHeightsMoveAsOneMass) {
-    for (const auto& pair : {std::pair{0.9, 0.4}, {0.6, 0.2}, {0.9, 0.1}, {1.2, 0.4}, {0.5, 0.2}}) {
+    std::vector<std::pair<double, double>> settings;
+    for (const double push : {0.2, 0.38, 0.5, 0.6, 0.9, 1.2, 2.0})
+        for (const double mu : {0.1, 0.2, 0.4, 0.7, 1.0})
+            if (push != mu) // a push that just reaches the limit is decided by round-off
+                settings.emplace_back(push, mu);
+    for (const auto& pair : settings) {
         const double push = pair.first, mu = pair.second; // clang 14 has no lambdas that capture structured bindings
         SCOPED_TRACE(fmt::format("push {}, friction {}", push, mu));
         Experiment experiment(model_from(fmt::format(R"toml(
@@ -143,6 +150,62 @@ contacts.B = {{ gap = "y + p", restitution = 0, friction = {1}, slip = "u + 0.3*
         EXPECT_NEAR(experiment.state()[0], x, 1e-10);
         EXPECT_NEAR(experiment.state()[3], u, 1e-10);
     }
+}
+
+/// A block at rest whose feet rub differently is pushed harder and harder. It holds as long as its weight can be shared
+/// so that both do: up to the push at which both are at their limits. In units from nano to mega.
+TEST(Belts, FeetThatRubDifferentlyGiveWayTogether) {
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> share(0, 1);
+    for (int i = 0; i < 12; ++i) {
+        const double unit = std::array{1e-9, 1e-3, 1.0, 1e6}[static_cast<std::size_t>(i) % 4];
+        const double first_height = 0.1 + share(random), second_height = 0.1 + share(random),
+                     first = 0.05 + 0.4 * share(random), second = 0.05 + 0.4 * share(random),
+                     torque = 0.2 * (share(random) - 0.5);
+        SCOPED_TRACE(
+            fmt::format("unit {}, heights {} {}, friction {} {}", unit, first_height, second_height, first, second));
+        Experiment experiment(model_from(fmt::format(R"toml(
+states = {{ x = 0, y = 0, p = 0, u = 0, v = 0, w = 0, s = 0 }}
+modes.free.rates = {{ x = "u", y = "v", p = "w", s = 1 }}
+modes.free.forces = {{ u = "0.1*s*{0}^2", v = "-{0}^2", w = "{5}*{0}^3" }}
+contacts.velocities = ["u", "v", "w"]
+contacts.mass = ["{0}", "{0}", "0.3*{0}^3"]
+contacts.A = {{ gap = "y - p*{0}", restitution = 0, friction = {3}, slip = "u + {1}*w*{0}" }}
+contacts.B = {{ gap = "y + p*{0}", restitution = 0, friction = {4}, slip = "-2*u - 2*{2}*w*{0}" }}
+)toml",
+                                                     unit, first_height, second_height, first, second, torque)));
+        EXPECT_EQ(experiment.run(10).ending, Ending::end_time) << experiment.trajectory.outcome().detail;
+        // The lever of the second foot doubles its force: N1 + N2 = 1, N2 - N1 - h1 mu1 N1 - 2 h2 mu2 N2 + torque = 0.
+        const double p1 = 1 + first_height * first, p2 = 1 - 2 * second_height * second;
+        const double n1 = (p2 + torque) / (p1 + p2), n2 = 1 - n1;
+        ASSERT_GT(std::min(n1, n2), 0);
+        const double slips = 10 * (first * n1 + 2 * second * n2);
+        const auto& contacts = experiment.recorder.contacts();
+        ASSERT_EQ(contacts.size(), slips < 10 ? 1U : 0U);
+        if (contacts.empty())
+            continue;
+        EXPECT_NEAR(contacts.front().contact.time, slips, 1e-12 * slips);
+        const double d = 10 - slips;
+        EXPECT_NEAR(experiment.state()[0], unit * 0.1 * d * d * d / 6, 1e-11 * unit);
+        EXPECT_NEAR(experiment.state()[3], unit * 0.1 * d * d / 2, 1e-11 * unit);
+    }
+}
+
+/// A body in a corner rubs along the floor while the wall holds it: its slip is zero with the wall's gap.
+TEST(Belts, WallsHoldWhatRubsAlongTheFloor) {
+    Experiment experiment(model_from(R"toml(
+states = { x = 0, y = 0, u = 0, v = 0, s = 0 }
+modes.free.rates = { x = "u", y = "v", s = 1 }
+modes.free.forces = { u = "0.2*s - 1", v = -1 }
+contacts.velocities = ["u", "v"]
+contacts.mass = [1, 1]
+contacts.floor = { gap = "y", restitution = 0, friction = 0.3, slip = "u" }
+contacts.wall = { gap = "x", restitution = 0 }
+)toml"));
+    EXPECT_EQ(experiment.run(8).ending, Ending::end_time) << experiment.trajectory.outcome().detail;
+    ASSERT_EQ(experiment.recorder.contacts().size(), 1U); // the push reaches 0.3
+    EXPECT_NEAR(experiment.recorder.contacts().front().contact.time, 6.5, 1e-12);
+    EXPECT_NEAR(experiment.state()[0], 0.2 * 1.5 * 1.5 * 1.5 / 6, 1e-13);
 }
 
 } // namespace belts_test
