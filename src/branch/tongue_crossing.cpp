@@ -58,7 +58,8 @@ std::optional<CrossedTongue> TongueCrossing::ahead_of(const Torus& from, const T
         return std::nullopt;
     const double least = curve.least(), greatest = curve.greatest(), width = greatest - least,
                  ahead = 0.5 * (least + greatest) - parameter;
-    if (std::abs(ahead) < (0.5 - slack) * width || ahead * direction < 0)
+    if (std::abs(ahead) < (0.5 - slack) * width || ahead * direction < 0 ||
+        is_outside(settings_, ahead < 0 ? greatest : least))
         return std::nullopt;
     CrossedTongue tongue;
     tongue.locking = search_.described(finder, curve, resonance, ahead < 0 ? -1 : 1);

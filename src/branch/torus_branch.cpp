@@ -223,8 +223,13 @@ std::optional<ContinuationPoint> TorusBranch::Follower::along(double distance, c
 /// The same with as many harmonics as it needs.
 std::optional<ContinuationPoint> TorusBranch::Follower::resolved_along(double distance) {
     unresolved_ = false;
+    constexpr double largest_misfit = 100; // as a multiple of the last harmonics: those left out add up
+    const auto is_resolved = [&](const std::vector<double>& u) {
+        return problem_->tail_of(u) <= resolution_.tail &&
+               misfit_between(*problem_, u) <= largest_misfit * resolution_.tail;
+    };
     auto there = along(distance);
-    while (there && problem_->tail_of(there->u) > resolution_.tail) {
+    while (there && !is_resolved(there->u)) {
         unresolved_ = !refine();
         there = unresolved_ ? std::nullopt : along(distance, problem_->extended(there->u));
     }

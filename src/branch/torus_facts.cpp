@@ -262,6 +262,30 @@ TorusFacts facts_of(const TorusProblem& problem, std::span<const double> u, cons
     return facts;
 }
 
+double misfit_between(const TorusProblem& problem, std::span<const double> u) {
+    constexpr int angles = 5;
+    constexpr double golden = 0.6180339887498949; // no equal spacing, of which higher harmonics could make use
+    constexpr double least = 1e-12;               // round-off of the states
+    const TorusSetting& setting = problem.setting();
+    const TorusAngles at(problem, u);
+    double size = 0, largest = 0;
+    for (std::size_t term = 1; term < problem.terms(); ++term)
+        for (std::size_t a = 0; a < setting.active.size(); ++a)
+            size = std::max(size, std::abs(u[problem.place_of(term, a)]) / setting.scales[index(setting.active[a])]);
+    for (int k = 0; k < angles; ++k) {
+        const double turns = 0.2137 + k * golden;
+        const auto image = at.image_from(turns);
+        if (!image)
+            return infinity;
+        const std::vector<double> wanted = at.torus().state_at(turns + at.torus().rotation);
+        for (const std::size_t i : setting.active) {
+            const double round_off = least * std::max(1.0, std::abs(wanted[i]) / setting.scales[index(i)]);
+            largest = std::max(largest, std::abs(image->after[i] - wanted[i]) / setting.scales[index(i)] - round_off);
+        }
+    }
+    return size > 0 ? largest / size : 0;
+}
+
 std::vector<double> extremes_of(const TorusProblem& problem, std::span<const double> u, OrbitMonitors& monitors) {
     std::vector<std::vector<double>> samples(monitors.monitors().size());
     const auto sign_of = [&](std::size_t m) {

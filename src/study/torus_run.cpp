@@ -1,5 +1,6 @@
 #include "study/torus_run.hpp"
 
+#include "branch/bounds.hpp"
 #include "graze/branch/torus_branch.hpp"
 
 #include <fmt/format.h>
@@ -74,10 +75,13 @@ TorusRecord record_of(const TorusPoint& point) {
 
 namespace {
 
-/// Adds the ends of the intervals in which tori lock.
-void add_lockings(const std::vector<PhaseLocking>& lockings, const TorusPoint& torus, PointWriter& writer) {
+/// Adds the ends of the intervals in which tori lock, up to the bounds of the branch.
+void add_lockings(const std::vector<PhaseLocking>& lockings, const TorusPoint& torus, const BranchSettings& settings,
+                  PointWriter& writer) {
     for (const PhaseLocking& one : lockings)
         for (SpecialPoint end : one.ends) {
+            if (is_outside(settings, end.parameter))
+                continue;
             end.step = torus.step;
             end.arclength = torus.arclength;
             writer.add("tori", end, false);
@@ -99,7 +103,7 @@ bool run_torus(const StudyRun& run, const System& system, const OrbitRecord& fir
     while (going) {
         const TorusPoint& torus = tori.point();
         const bool at_bound = tori.outcome() == TorusOutcome::bound;
-        add_lockings(torus.passed, torus, writer);
+        add_lockings(torus.passed, torus, branch.settings, writer);
         writer.add("tori", point_of(torus, at_bound, parameter), torus.stable, record_of(torus));
         if (options.interrupted && options.interrupted())
             return false;
@@ -109,7 +113,7 @@ bool run_torus(const StudyRun& run, const System& system, const OrbitRecord& fir
     if (!why.empty() && !tori.detail().empty())
         why += ": " + tori.detail();
     writer.end(why);
-    add_lockings(tori.last_locking(), tori.point(), writer);
+    add_lockings(tori.last_locking(), tori.point(), branch.settings, writer);
     writer.flush();
     return true;
 }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <functional>
 #include <numbers>
 #include <string>
@@ -103,6 +104,30 @@ struct FifthTongue {
             0.5 * middle, 1.7 * middle);
     }
 };
+
+/// Seven angles cannot tell a term of the seventh harmonic from a constant one. The image of each angle must lie on the
+/// circle.
+TEST(PhaseLocking, ToriOfAMapWithSevenfoldSymmetryHaveTheHarmonicsThatTheyNeed) {
+    const std::string size = "(1 + p - (x^2 + y^2))", turn = "(2*pi*(0.14 + 0.05*(x^2 + y^2)))";
+    const Model model = map_model(
+        "p = -0.05", {size + "*(x*cos" + turn + " - y*sin" + turn + ") + 2*(x^6 - 15*x^4*y^2 + 15*x^2*y^4 - y^6)",
+                      size + "*(x*sin" + turn + " + y*cos" + turn + ") - 2*(6*x^5*y - 20*x^3*y^3 + 6*x*y^5)"});
+    const FollowedTori tori = follow_tori(model, in_parameter(model, "p", -0.1, 0.03));
+    EXPECT_EQ(tori.outcome, TorusOutcome::bound) << tori.detail;
+    ASSERT_GT(tori.points.size(), 3U);
+    for (const TorusPoint& one : tori.points) {
+        const double radius = std::sqrt(one.parameter);
+        for (const double turns : {0.01, 0.17, 0.33, 0.59, 0.83}) {
+            const std::vector<double> from = one.torus.state_at(turns),
+                                      to = one.torus.state_at(turns + one.torus.rotation);
+            const std::complex<double> z{from[0], from[1]};
+            const std::complex<double> image =
+                (1 + one.parameter - std::norm(z)) * z * std::polar(1.0, 2 * pi * (0.14 + 0.05 * std::norm(z))) +
+                2.0 * std::pow(std::conj(z), 6);
+            EXPECT_LT(std::abs(image - std::complex(to[0], to[1])), 1e-7 * radius) << one.parameter << ' ' << turns;
+        }
+    }
+}
 
 TEST(PhaseLocking, TonguesNarrowerThanStepsHaveTheirClosedForm) {
     for (const double e : {1e-6, 0.3})
