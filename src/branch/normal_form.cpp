@@ -90,10 +90,31 @@ public:
     /// Computes l^T F_3(v, v, .) by fourth-order differences. @param parts incremented by the magnitudes of the terms
     bool third(const VectorXcd& left, const VectorXd& vector, RowVectorXcd& result, double& parts) {
         constexpr double share = 1e-3; // step in scaled unknowns, whatever the length of the vector
-        const double size = vector.cwiseAbs().maxCoeff(), step = share / size;
+        const double size = vector.cwiseAbs().maxCoeff();
         result = RowVectorXcd::Zero(columns_.size());
         if (size == 0)
             return true;
+        Difference difference;
+        const bool followed = differences(left, vector, share / size, difference);
+        if (!has_scale(vector)) {
+            if (const auto finer = converged_difference(left, vector, share / size))
+                difference = *finer;
+            else if (!followed)
+                return false;
+        } else if (!followed) {
+            return false;
+        }
+        result = difference.value;
+        parts += difference.parts;
+        return true;
+    }
+
+private:
+    struct Difference {
+        RowVectorXcd value;
+        double parts = 0;
+    };
+    bool differences(const VectorXcd& left, const VectorXd& vector, double step, Difference& result) {
         MatrixXd weights(left.size(), 2), one, sum = MatrixXd::Zero(2, columns_.size());
         weights << left.real(), left.imag();
         const VectorXd here = shifted_.unknowns;
@@ -103,17 +124,42 @@ public:
             shifted_.unknowns = here;
             if (followed) {
                 sum += weight / (12 * step) * one;
-                parts += std::abs(weight) / (12 * step) * one.norm();
+                result.parts += std::abs(weight) / (12 * step) * one.norm();
             }
             return followed;
         };
         if (!at(step, 8) || !at(-step, -8) || !at(2 * step, -1) || !at(-2 * step, 1))
             return false;
-        result = sum.row(0) + Complex(0, 1) * sum.row(1);
+        result.value = sum.row(0) + Complex(0, 1) * sum.row(1);
         return true;
     }
+    /// True when the orbit itself tells how large a displacement along a vector may be: some start is not zero in it.
+    bool has_scale(const VectorXd& vector) const {
+        constexpr double least = 1e-3; // of the scale, and of the vector
+        const double size = vector.cwiseAbs().maxCoeff();
+        for (Eigen::Index i = 0; i < columns_.size(); ++i)
+            if (std::abs(vector[i]) > least * size && std::abs(shifted_.unknowns[i]) > least * columns_[i])
+                return true;
+        return false;
+    }
+    /// The difference by the longest step, from one downwards, that a shorter one confirms; empty if there is none.
+    std::optional<Difference> converged_difference(const VectorXcd& left, const VectorXd& vector, double step) {
+        constexpr double shorter = 0.03, same = 1e-4, round_off = 1e-9;
+        constexpr int most = 12;
+        std::optional<Difference> before;
+        for (int i = 0; i < most; ++i, step *= shorter) {
+            Difference here;
+            if (!differences(left, vector, step, here) || !here.value.allFinite()) {
+                before.reset();
+                continue;
+            }
+            if (before && (here.value - before->value).norm() <= same * here.value.norm() + round_off * here.parts)
+                return before;
+            before = std::move(here);
+        }
+        return std::nullopt;
+    }
 
-private:
     bool contract(const MatrixXd& left, const VectorXd& right, MatrixXd& result) {
         MatrixXd gradients;
         if (!variation_.contract(equations_, shifted_, rows_.cwiseInverse().asDiagonal() * left,

@@ -115,8 +115,7 @@ struct TurnChange {
 TurnChange change_of_turns(const CycleEnds& ends, const Orbit& orbit, std::span<const double> end) {
     static constexpr double most = 200; // at once
     const SaddleCycle& cycle = ends.cycle();
-    const EndDistances is = ends.distances(orbit.starts.front(), end),
-                       wanted = wanted_distances(cycle.growth(), cycle.decay());
+    const EndDistances is = ends.distances(orbit.starts.front(), end), wanted = cycle.wanted_distances();
     // With the number of turns that is returned a distance is at most the wanted one, and a turn nearer at the least.
     const auto turns = [](double ratio, double rate) {
         const double count = std::isfinite(std::log(ratio)) ? std::log(ratio) / rate : 0;

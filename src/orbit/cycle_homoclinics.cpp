@@ -88,7 +88,7 @@ private:
     /// one domain contains both sides.
     void follow_domain() {
         const double multiplier = cycle_.unstable_multiplier(), growth = cycle_.growth();
-        const double begin = wanted_distances(growth, cycle_.decay()).departure;
+        const double begin = cycle_.wanted_distances().departure;
         const double domain = multiplier > 0 ? growth : 2 * growth;
         const int turns = static_cast<int>(std::ceil((domain - std::log(begin)) / growth)) + further_turns;
         ManifoldFollower follower(*system_, cycle_, options_.tolerance, turns * cycle_.orbit().period());
@@ -182,7 +182,7 @@ private:
     /// Returns the homoclinic orbit in an enclosure; empty if the motions between have different segments, or do not
     /// approach the cycle.
     std::optional<OrbitSolution> solution_in(Enclosure enclosure) {
-        const EndDistances wanted = wanted_distances(cycle_.growth(), cycle_.decay());
+        const EndDistances wanted = cycle_.wanted_distances();
         std::optional<ManifoldMotion> middle;
         for (;;) {
             const double at = 0.5 * (enclosure.low.beginning + enclosure.high.beginning);

@@ -10,6 +10,7 @@ struct EndDistances {
 
 /// Returns the distances at which it is known to round-off that the orbit begins in the linear unstable space and ends
 /// in the linear stable one. @param growth, decay rates of the slowest growth and decay beside the saddle
-EndDistances wanted_distances(double growth, double decay);
+/// @param effect what the curvature of the spaces may change, to leading order
+EndDistances wanted_distances(double growth, double decay, double effect = 1e-13);
 
 } // namespace graze

@@ -192,6 +192,14 @@ double SaddleCycle::decay() const {
     return -std::log(std::max(std::abs(multipliers_[1]), least));
 }
 
+/// Turns away from the cycle contract less than those beside it, which matters where the contraction is strong: orbits
+/// begin and end nearer than at an equilibrium. Turns are segments of their own, so that round-off does not grow.
+EndDistances SaddleCycle::wanted_distances() const {
+    constexpr double effect = 1e-17, greatest = 0.01;
+    const EndDistances result = graze::wanted_distances(growth(), decay(), effect);
+    return {std::min(result.departure, greatest), std::min(result.approach, greatest)};
+}
+
 Eigen::VectorXd SaddleCycle::from_cycle(std::span<const double> state) const {
     Eigen::VectorXd result(scales_.size());
     for (std::size_t i = 0; i < state.size(); ++i)

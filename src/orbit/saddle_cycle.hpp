@@ -2,6 +2,7 @@
 
 #include "graze/orbit/orbit.hpp"
 #include "graze/trajectory/simulation.hpp"
+#include "orbit/end_distances.hpp"
 
 #include <Eigen/Core>
 
@@ -46,6 +47,8 @@ public:
     /// The rates, per turn, at which distances grow in the unstable space, and decay at least in the stable one.
     double growth() const;
     double decay() const;
+    /// The distances at which a homoclinic orbit shall begin and end.
+    EndDistances wanted_distances() const;
     const Eigen::VectorXd& unstable_direction() const { return direction_; }      ///< v, of length 1 in these units
     const Eigen::RowVectorXd& unstable_coordinate() const { return coordinate_; } ///< w
     /// Derivatives of the start with respect to the free parameters.

@@ -105,6 +105,16 @@ struct FifthTongue {
     }
 };
 
+/// The coefficient at a fixed point of zero, which does not tell the size of displacements.
+TEST(PhaseLocking, TorusPointsHaveTheirCoefficientInAnyUnit) {
+    for (const auto& [unit, coefficient] :
+         {std::pair(1.0, "-2"), {1e-9, "-2e+18"}, {1e-6, "-2e+12"}, {1e-3, "-2e+06"}}) {
+        const Model model = turning_map(fmt::format("2*pi*(0.14 + 0.05*(x^2 + y^2)/{}^2)", unit), unit);
+        const SpecialPoint point = torus_point(model, in_parameter(model, "p", -0.1 * unit, 0.05 * unit));
+        EXPECT_EQ(point.detail, fmt::format("supercritical, d = {}", coefficient));
+    }
+}
+
 /// Seven angles cannot tell a term of the seventh harmonic from a constant one. The image of each angle must lie on the
 /// circle.
 TEST(PhaseLocking, ToriOfAMapWithSevenfoldSymmetryHaveTheHarmonicsThatTheyNeed) {
