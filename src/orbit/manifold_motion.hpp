@@ -1,5 +1,6 @@
 #pragma once
 
+#include "graze/trajectory/jet_set.hpp"
 #include "orbit/orbit_flow.hpp"
 #include "orbit/saddle_cycle.hpp"
 
