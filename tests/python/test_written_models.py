@@ -338,7 +338,7 @@ def test_contacts_make_their_modes():
     floor = graze.Contact(y, 0.6, friction=0.2, slip=v, text="the ground")
     ball = graze.Model("ball", rates={x: v, v: 0, y: w, w: -9.81},
                        contacts=graze.Contacts({"floor": floor, "wall": graze.Contact(x, 0.8)}, mass={v: 1, w: 1}))
-    assert "motion-floor-forward-wall" in ball.modes and graze.Model(text=str(ball)) == ball
+    assert "motion-floor-stick-wall" in ball.modes and graze.Model(text=str(ball)) == ball
     assert tomllib.loads(str(ball))["contacts"]["velocities"] == ["v", "w"]
     end = graze.simulate(ball, time=30)
     assert end.end_state["y"] == 0 and end.end_state["v"] == 0
