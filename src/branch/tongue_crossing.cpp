@@ -3,6 +3,7 @@
 #include "branch/bounds.hpp"
 #include "branch/resonances.hpp"
 #include "branch/torus_beyond.hpp"
+#include "branch/torus_facts.hpp"
 
 #include <fmt/format.h>
 
@@ -116,14 +117,12 @@ bool TongueCrossing::solve(CrossedTongue& tongue, const LockedCurve& curve, doub
         if (!there.start(*guess, equations->parameter_place(), direction))
             return false;
         tongue.beyond = there.point();
-        if (equations->tail_of(tongue.beyond.u) <= resolution_.tail)
+        if (is_resolved(*equations, tongue.beyond.u, resolution_))
             return true;
         const std::size_t now = equations->harmonics(), more = std::min(now + now / 2, resolution_.harmonics);
         if (more == now)
             return false;
-        auto finer = std::make_shared<TorusProblem>(equations->setting(), more);
-        finer->take_durations(*equations);
-        finer->set_parameter_scale(equations->scales()[equations->parameter_place()]);
+        auto finer = equations->with_harmonics(more);
         guess = finer->extended(tongue.beyond.u);
         equations = std::move(finer);
     }

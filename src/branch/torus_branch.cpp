@@ -191,9 +191,7 @@ bool TorusBranch::Follower::refine() {
                       more = std::min(now + std::max<std::size_t>(4, now / 2), resolution_.harmonics);
     if (more == now)
         return false;
-    auto finer = std::make_shared<TorusProblem>(setting_, more);
-    finer->take_durations(*problem_);
-    finer->set_parameter_scale(problem_->scales()[problem_->parameter_place()]);
+    auto finer = problem_->with_harmonics(more);
     for (std::vector<double>* numbers : {&origin_, &direction_, &reference_})
         *numbers = finer->extended(*numbers);
     problem_ = std::move(finer);
@@ -223,13 +221,8 @@ std::optional<ContinuationPoint> TorusBranch::Follower::along(double distance, c
 /// The same with as many harmonics as it needs.
 std::optional<ContinuationPoint> TorusBranch::Follower::resolved_along(double distance) {
     unresolved_ = false;
-    constexpr double largest_misfit = 100; // as a multiple of the last harmonics: those left out add up
-    const auto is_resolved = [&](const std::vector<double>& u) {
-        return problem_->tail_of(u) <= resolution_.tail &&
-               misfit_between(*problem_, u) <= largest_misfit * resolution_.tail;
-    };
     auto there = along(distance);
-    while (there && !is_resolved(there->u)) {
+    while (there && !is_resolved(*problem_, there->u, resolution_)) {
         unresolved_ = !refine();
         there = unresolved_ ? std::nullopt : along(distance, problem_->extended(there->u));
     }

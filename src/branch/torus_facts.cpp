@@ -62,19 +62,29 @@ private:
     double parameter_;
 };
 
-/// Returns the largest error, half-way between the angles at which the equations hold, in scaled states.
-double largest_defect(const TorusProblem& problem, const TorusAngles& angles) {
+/// Returns the error of the circle's image at an angle, in scaled states; infinite where motions do not return.
+/// @param round_off share of the states, and of their scales, that is no error
+double error_at(const TorusProblem& problem, const TorusAngles& angles, double turns, double round_off = 0) {
     const TorusSetting& setting = problem.setting();
+    const auto image = angles.image_from(turns);
+    if (!image)
+        return infinity;
+    const std::vector<double> wanted = angles.torus().state_at(turns + angles.torus().rotation);
     double largest = 0;
-    for (std::size_t j = 0; j < problem.terms(); ++j) {
-        const double turns = (static_cast<double>(j) + 0.5) / static_cast<double>(problem.terms());
-        const auto image = angles.image_from(turns);
-        if (!image)
-            return infinity;
-        const std::vector<double> wanted = angles.torus().state_at(turns + angles.torus().rotation);
-        for (const std::size_t i : setting.active)
-            largest = std::max(largest, std::abs(image->after[i] - wanted[i]) / setting.scales[index(i)]);
+    for (const std::size_t i : setting.active) {
+        const double scale = setting.scales[index(i)];
+        largest = std::max(largest, std::abs(image->after[i] - wanted[i]) / scale -
+                                        round_off * std::max(1.0, std::abs(wanted[i]) / scale));
     }
+    return largest;
+}
+
+/// Returns the largest error, half-way between the angles at which the equations hold.
+double largest_defect(const TorusProblem& problem, const TorusAngles& angles) {
+    double largest = 0;
+    for (std::size_t j = 0; j < problem.terms(); ++j)
+        largest = std::max(
+            largest, error_at(problem, angles, (static_cast<double>(j) + 0.5) / static_cast<double>(problem.terms())));
     return largest;
 }
 
@@ -262,28 +272,19 @@ TorusFacts facts_of(const TorusProblem& problem, std::span<const double> u, cons
     return facts;
 }
 
-double misfit_between(const TorusProblem& problem, std::span<const double> u) {
+bool is_resolved(const TorusProblem& problem, std::span<const double> u, const TorusResolution& resolution) {
+    constexpr double largest_error = 100; // as a multiple of the last harmonics: those left out add up
     constexpr int angles = 5;
     constexpr double golden = 0.6180339887498949; // no equal spacing, of which higher harmonics could make use
-    constexpr double least = 1e-12;               // round-off of the states
-    const TorusSetting& setting = problem.setting();
+    constexpr double round_off = 1e-12;
+    if (!(problem.tail_of(u) <= resolution.tail))
+        return false;
     const TorusAngles at(problem, u);
-    double size = 0, largest = 0;
-    for (std::size_t term = 1; term < problem.terms(); ++term)
-        for (std::size_t a = 0; a < setting.active.size(); ++a)
-            size = std::max(size, std::abs(u[problem.place_of(term, a)]) / setting.scales[index(setting.active[a])]);
-    for (int k = 0; k < angles; ++k) {
-        const double turns = 0.2137 + k * golden;
-        const auto image = at.image_from(turns);
-        if (!image)
-            return infinity;
-        const std::vector<double> wanted = at.torus().state_at(turns + at.torus().rotation);
-        for (const std::size_t i : setting.active) {
-            const double round_off = least * std::max(1.0, std::abs(wanted[i]) / setting.scales[index(i)]);
-            largest = std::max(largest, std::abs(image->after[i] - wanted[i]) / setting.scales[index(i)] - round_off);
-        }
-    }
-    return size > 0 ? largest / size : 0;
+    const double allowed = largest_error * resolution.tail * problem.largest_from(1, u);
+    for (int k = 0; k < angles; ++k)
+        if (!(error_at(problem, at, 0.2137 + k * golden, round_off) <= allowed))
+            return false;
+    return true;
 }
 
 std::vector<double> extremes_of(const TorusProblem& problem, std::span<const double> u, OrbitMonitors& monitors) {

@@ -59,21 +59,25 @@ std::vector<double> TorusProblem::extended(std::span<const double> fewer) const 
     return more;
 }
 
-double TorusProblem::tail_of(std::span<const double> u) const {
-    double largest = 0, last = 0;
-    for (std::size_t term = 1; term < terms(); ++term)
-        for (std::size_t a = 0; a < setting_.active.size(); ++a) {
-            const double size = std::abs(u[place_of(term, a)]) / scales_[place_of(term, a)];
-            largest = std::max(largest, size);
-            if (term + 4 >= terms())
-                last = std::max(last, size);
-        }
-    return largest > 0 ? last / largest : 0;
+double TorusProblem::largest_from(std::size_t first_term, std::span<const double> u) const {
+    double largest = 0;
+    for (std::size_t place = place_of(first_term, 0); place < rotation_place(); ++place)
+        largest = std::max(largest, std::abs(u[place]) / scales_[place]);
+    return largest;
 }
 
-void TorusProblem::take_durations(const TorusProblem& other) {
-    for (std::size_t j = 0; j < terms(); ++j)
-        durations_[j] = other.durations_[j * other.terms() / terms()];
+double TorusProblem::tail_of(std::span<const double> u) const {
+    constexpr std::size_t last = 4; // terms of two harmonics
+    const double largest = largest_from(1, u);
+    return largest > 0 ? largest_from(std::max<std::size_t>(terms(), last + 1) - last, u) / largest : 0;
+}
+
+std::shared_ptr<TorusProblem> TorusProblem::with_harmonics(std::size_t harmonics) const {
+    auto finer = std::make_shared<TorusProblem>(setting_, harmonics);
+    for (std::size_t j = 0; j < finer->terms(); ++j)
+        finer->durations_[j] = durations_[j * terms() / finer->terms()];
+    finer->set_parameter_scale(scales_[parameter_place()]);
+    return finer;
 }
 
 bool TorusProblem::evaluate(std::span<const double> u) {

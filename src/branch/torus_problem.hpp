@@ -42,16 +42,18 @@ public:
     Torus torus_of(std::span<const double> u) const;
     /// Returns unknowns, or a direction of them, of a series with fewer terms with zeros for the further terms.
     std::vector<double> extended(std::span<const double> fewer) const;
+    /// Returns the largest term from one on, in scaled states.
+    double largest_from(std::size_t first_term, std::span<const double> u) const;
     /// Returns the largest of the last two harmonics, relative to the largest of all, in scaled states.
     double tail_of(std::span<const double> u) const;
+    /// Returns the same equations with more harmonics, whose first guesses and scales are those of these.
+    std::shared_ptr<TorusProblem> with_harmonics(std::size_t harmonics) const;
     /// The returns from each of the angles, at the last evaluation.
     const std::vector<SignatureReturn::Image>& images() const { return images_; }
     /// Why the last evaluation failed.
     const std::string& problem() const { return problem_; }
     /// Sets the scale of the parameter, which is not to change within a step.
     void set_parameter_scale(double scale) { scales_[parameter_place()] = scale; }
-    /// Takes over the durations of motions of a problem with fewer terms, as first guesses.
-    void take_durations(const TorusProblem& other);
 
     std::size_t unknowns() const override { return parameter_place() + 1; }
     std::span<const double> scales() const override { return scales_; }
