@@ -6,6 +6,7 @@
 #include "orbit/certify.hpp"
 #include "orbit/cut.hpp"
 #include "orbit/sections_of.hpp"
+#include "orbit/segment_entry.hpp"
 #include "orbit/solve_equilibrium.hpp"
 
 #include <fmt/format.h>
@@ -175,22 +176,11 @@ public:
     }
 
 private:
-    /// The end of a segment and the state just after it.
-    struct Entry {
-        double time;
-        Segment segment;
-        std::vector<double> state;
-    };
-
     bool is_wanted(const Segment& segment) const {
         return std::find(wanted_->begin(), wanted_->end(), segment) != wanted_->end();
     }
-    /// Inserts an entry in the order of time: contacts and passages within a step arrive separately.
     void note(double time, const Segment& segment, std::span<const double> state) {
-        auto place = entries_.end();
-        while (place > entries_.begin() + 1 && (place - 1)->time > time)
-            --place;
-        entries_.insert(place, {time, segment, {state.begin(), state.end()}});
+        insert_by_time(entries_, {time, segment, {state.begin(), state.end()}}, 1);
     }
     /// Makes one entry of all contacts that accumulate.
     void accumulate(const Contact& contact) {
@@ -246,7 +236,7 @@ private:
     Simulation simulation_;
     const SignatureSearchOptions* search_;
     std::vector<std::size_t> section_of_probe_;
-    std::vector<Entry> entries_;
+    std::vector<SegmentEntry> entries_;
     std::optional<OrbitSolution> found_, unphysical_, failed_;
     std::size_t steps_ = 0, trials_ = 0, next_ = 0;
     double time_ = 0, followed_time_ = 0;

@@ -5,6 +5,7 @@
 #include "orbit/certify.hpp"
 #include "orbit/newton.hpp"
 #include "orbit/sections_of.hpp"
+#include "orbit/segment_entry.hpp"
 
 #include <algorithm>
 
@@ -39,7 +40,7 @@ public:
     /// Appends the segments to those of an orbit. @param before time before the motion
     void append_to(Orbit& orbit, double before) const {
         double last = -before;
-        for (const Passed& one : passed_) {
+        for (const SegmentEntry& one : passed_) {
             orbit.signature.push_back(one.segment);
             orbit.durations.push_back(one.time - last);
             orbit.starts.push_back(one.state);
@@ -49,27 +50,17 @@ public:
 
 private:
     static constexpr std::size_t most_segments = 20000;
-    struct Passed {
-        double time;
-        Segment segment;
-        std::vector<double> state;
-    };
-
     bool is_of_cycle(const Segment& segment) const {
         return std::find(cycle_->begin(), cycle_->end(), segment) != cycle_->end();
     }
-    /// Inserts in the order of time: contacts and passages within a step arrive separately.
     void note(double time, const Segment& segment, std::span<const double> state) {
-        auto place = passed_.end();
-        while (place > passed_.begin() && (place - 1)->time > time)
-            --place;
-        passed_.insert(place, {time, segment, {state.begin(), state.end()}});
+        insert_by_time(passed_, {time, segment, {state.begin(), state.end()}});
     }
 
     const System* system_;
     const Signature* cycle_;
     const std::vector<std::size_t>* sections_;
-    std::vector<Passed> passed_;
+    std::vector<SegmentEntry> passed_;
     bool ends_ = false;
 };
 
