@@ -94,18 +94,13 @@ public:
         result = RowVectorXcd::Zero(columns_.size());
         if (size == 0)
             return true;
-        Difference difference;
-        const bool followed = differences(left, vector, share / size, difference);
-        if (!has_scale(vector)) {
-            if (const auto finer = converged_difference(left, vector, share / size))
-                difference = *finer;
-            else if (!followed)
-                return false;
-        } else if (!followed) {
+        std::optional<Difference> difference = differences(left, vector, share / size);
+        if (!has_scale(vector))
+            difference = confirmed(std::move(difference), left, vector, share / size);
+        if (!difference)
             return false;
-        }
-        result = difference.value;
-        parts += difference.parts;
+        result = difference->value;
+        parts += difference->parts;
         return true;
     }
 
@@ -114,7 +109,8 @@ private:
         RowVectorXcd value;
         double parts = 0;
     };
-    bool differences(const VectorXcd& left, const VectorXd& vector, double step, Difference& result) {
+    std::optional<Difference> differences(const VectorXcd& left, const VectorXd& vector, double step) {
+        Difference result;
         MatrixXd weights(left.size(), 2), one, sum = MatrixXd::Zero(2, columns_.size());
         weights << left.real(), left.imag();
         const VectorXd here = shifted_.unknowns;
@@ -129,9 +125,9 @@ private:
             return followed;
         };
         if (!at(step, 8) || !at(-step, -8) || !at(2 * step, -1) || !at(-2 * step, 1))
-            return false;
+            return std::nullopt;
         result.value = sum.row(0) + Complex(0, 1) * sum.row(1);
-        return true;
+        return result;
     }
     /// True when the orbit itself tells how large a displacement along a vector may be: some start is not zero in it.
     bool has_scale(const VectorXd& vector) const {
@@ -142,22 +138,23 @@ private:
                 return true;
         return false;
     }
-    /// The difference by the longest step, from one downwards, that a shorter one confirms; empty if there is none.
-    std::optional<Difference> converged_difference(const VectorXcd& left, const VectorXd& vector, double step) {
+    /// Returns the difference by the longest step, from one downwards, that a shorter one confirms; if there is none,
+    /// that by the step itself.
+    std::optional<Difference> confirmed(std::optional<Difference> first, const VectorXcd& left, const VectorXd& vector,
+                                        double step) {
         constexpr double shorter = 0.03, same = 1e-4, round_off = 1e-9;
         constexpr int most = 12;
-        std::optional<Difference> before;
-        for (int i = 0; i < most; ++i, step *= shorter) {
-            Difference here;
-            if (!differences(left, vector, step, here) || !here.value.allFinite()) {
-                before.reset();
-                continue;
-            }
-            if (before && (here.value - before->value).norm() <= same * here.value.norm() + round_off * here.parts)
-                return before;
-            before = std::move(here);
+        std::vector<std::optional<Difference>> all;
+        all.push_back(std::move(first));
+        for (int i = 1; i < most; ++i) {
+            step *= shorter;
+            all.push_back(differences(left, vector, step));
+            std::optional<Difference>&before = *(all.end() - 2), &here = all.back();
+            if (here && before &&
+                (here->value - before->value).norm() <= same * here->value.norm() + round_off * here->parts)
+                return std::move(before);
         }
-        return std::nullopt;
+        return std::move(all.front());
     }
 
     bool contract(const MatrixXd& left, const VectorXd& right, MatrixXd& result) {
