@@ -1,5 +1,6 @@
 #include "model/joint_friction.hpp"
 
+#include "base/linear_systems.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "model/expression_matrix.hpp"
 
@@ -25,26 +26,11 @@ struct Row {
 
 using Numbers = std::vector<std::vector<double>>;
 
-/// Determinant of a small square matrix by elimination.
-double determinant_of(Numbers rows) {
-    double result = 1;
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-        std::size_t pivot = k;
-        for (std::size_t i = k; i < rows.size(); ++i)
-            if (std::abs(rows[i][k]) > std::abs(rows[pivot][k]))
-                pivot = i;
-        if (rows[pivot][k] == 0)
-            return 0;
-        if (pivot != k) {
-            std::swap(rows[pivot], rows[k]);
-            result = -result;
-        }
-        result *= rows[k][k];
-        for (std::size_t i = k + 1; i < rows.size(); ++i)
-            for (std::size_t j = rows.size(); j-- > k;)
-                rows[i][j] -= rows[i][k] / rows[k][k] * rows[k][j];
-    }
-    return result;
+double determinant_of(const Numbers& rows) {
+    const auto n = static_cast<Eigen::Index>(rows.size());
+    return determinant(Eigen::MatrixXd::NullaryExpr(n, n, [&](Eigen::Index i, Eigen::Index j) {
+        return rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+    }));
 }
 
 std::vector<std::size_t> members(std::size_t set) {
