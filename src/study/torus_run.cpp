@@ -71,10 +71,6 @@ TorusRecord record_of(const TorusPoint& point) {
     return record;
 }
 
-} // namespace
-
-namespace {
-
 /// Adds the ends of the intervals in which tori lock, up to the bounds of the branch.
 void add_lockings(const std::vector<PhaseLocking>& lockings, const TorusPoint& torus, const BranchSettings& settings,
                   PointWriter& writer) {

@@ -34,8 +34,8 @@ Model turning_map(const std::string& phase, double unit = 1) {
 /// Im z^5.
 const std::string fifth = "(5*x^4*y - 10*x^2*y^3 + y^5)";
 
-SpecialPoint torus_point(const Model& model, const BranchSettings& settings) {
-    const auto found = of_type(follow_branch(System(model), fixed_point(model, {0, 0}), settings), PointType::torus);
+SpecialPoint torus_point(const Model& model, const Orbit& orbit, const BranchSettings& settings) {
+    const auto found = of_type(follow_branch(System(model), orbit, settings), PointType::torus);
     EXPECT_EQ(found.size(), 1U);
     return found.at(0);
 }
@@ -47,8 +47,10 @@ struct FollowedTori {
     std::string detail;
 };
 
-FollowedTori follow_tori(const Model& model, const BranchSettings& settings, const TorusResolution& resolution = {}) {
-    TorusBranch branch(System(model), torus_point(model, settings), settings, resolution);
+/// The tori of the branch of an orbit.
+FollowedTori follow_tori_of(const Orbit& orbit, const Model& model, const BranchSettings& settings,
+                            const TorusResolution& resolution = {}) {
+    TorusBranch branch(System(model), torus_point(model, orbit, settings), settings, resolution);
     FollowedTori tori;
     for (bool going = branch.start(); going; going = branch.step()) {
         tori.points.push_back(branch.point());
@@ -59,6 +61,11 @@ FollowedTori follow_tori(const Model& model, const BranchSettings& settings, con
     tori.outcome = branch.outcome();
     tori.detail = branch.detail();
     return tori;
+}
+
+/// Those of the fixed point of a map at zero.
+FollowedTori follow_tori(const Model& model, const BranchSettings& settings, const TorusResolution& resolution = {}) {
+    return follow_tori_of(fixed_point(model, {0, 0}), model, settings, resolution);
 }
 
 const PhaseLocking& locking_of(const std::vector<PhaseLocking>& lockings, long numerator, std::size_t denominator) {
@@ -110,7 +117,8 @@ TEST(PhaseLocking, TorusPointsHaveTheirCoefficientInAnyUnit) {
     for (const auto& [unit, coefficient] :
          {std::pair(1.0, "-2"), {1e-9, "-2e+18"}, {1e-6, "-2e+12"}, {1e-3, "-2e+06"}}) {
         const Model model = turning_map(fmt::format("2*pi*(0.14 + 0.05*(x^2 + y^2)/{}^2)", unit), unit);
-        const SpecialPoint point = torus_point(model, in_parameter(model, "p", -0.1 * unit, 0.05 * unit));
+        const SpecialPoint point =
+            torus_point(model, fixed_point(model, {0, 0}), in_parameter(model, "p", -0.1 * unit, 0.05 * unit));
         EXPECT_EQ(point.detail, fmt::format("supercritical, d = {}", coefficient));
     }
 }
@@ -314,16 +322,10 @@ TEST(PhaseLocking, OfDrivenAndOfFreeOscillatorsHasItsClosedForm) {
                                .model();
         const Model& model = is_driven ? forced : free;
         const BranchSettings settings = in_parameter(model, "p", -0.1, 0.17);
-        const auto found =
-            of_type(follow_branch(System(model), settled(model, "start").orbit, settings), PointType::torus);
-        ASSERT_EQ(found.size(), 1U);
-        TorusBranch branch(System(model), found[0], settings);
-        std::vector<PhaseLocking> lockings;
-        for (bool going = branch.start(); going; going = branch.step())
-            lockings.insert(lockings.end(), branch.point().passed.begin(), branch.point().passed.end());
-        EXPECT_EQ(branch.outcome(), TorusOutcome::bound) << branch.detail();
-        expect_located(locking_of(lockings, 1, 5), end(-1), end(1), 1e-11);
-        EXPECT_NEAR(locking_of(lockings, 1, 5).ends[0].solution.orbit.period(), 10 * pi, 1e-9);
+        const FollowedTori tori = follow_tori_of(settled(model, "start").orbit, model, settings);
+        EXPECT_EQ(tori.outcome, TorusOutcome::bound) << tori.detail;
+        expect_located(locking_of(tori.lockings, 1, 5), end(-1), end(1), 1e-11);
+        EXPECT_NEAR(locking_of(tori.lockings, 1, 5).ends[0].solution.orbit.period(), 10 * pi, 1e-9);
     }
 }
 
@@ -331,14 +333,9 @@ TEST(PhaseLocking, OfDrivenAndOfFreeOscillatorsHasItsClosedForm) {
 TEST(PhaseLocking, OfVanDerPolEndsAtTheFoldsOfTheOrbitThatIsSimulated) {
     const Model model = driven("F = 2\nomega = 1.5", "0.3*(1 - x^2)*v - x + F*cos(theta)", "omega");
     const BranchSettings settings = in_parameter(model, "F", 0.5, 2, -1);
-    const auto found = of_type(follow_branch(System(model), settled(model, "start").orbit, settings), PointType::torus);
-    ASSERT_EQ(found.size(), 1U);
-    TorusBranch branch(System(model), found[0], settings);
-    std::vector<PhaseLocking> lockings;
-    for (bool going = branch.start(); going; going = branch.step())
-        lockings.insert(lockings.end(), branch.point().passed.begin(), branch.point().passed.end());
-    EXPECT_EQ(branch.outcome(), TorusOutcome::bound) << branch.detail();
-    const PhaseLocking& locking = locking_of(lockings, 1, 3);
+    const FollowedTori tori = follow_tori_of(settled(model, "start").orbit, model, settings);
+    EXPECT_EQ(tori.outcome, TorusOutcome::bound) << tori.detail;
+    const PhaseLocking& locking = locking_of(tori.lockings, 1, 3);
     Model within = model;
     within.set_parameter("F", 0.9717);
     const OrbitSolution orbit = settled(within, "start");

@@ -92,13 +92,15 @@ HalfStep symmetric_walk(double energy) {
 
 class SpringWalker : public StudyFixture {};
 
-TEST_F(SpringWalker, WalksAsShootingFinds) {
-    expect_complete(run(R"(name = "s"
+const std::string walk = R"(name = "s"
 model = "spring-walker"
 [runs.walk]
 kind = "orbit"
 signature = "touchdown takeoff"
-[runs.family]
+)";
+
+TEST_F(SpringWalker, WalksAsShootingFinds) {
+    expect_complete(run(walk + R"([runs.family]
 kind = "continue"
 start = { run = "walk" }
 along = { energy = [815, 818] }
@@ -130,12 +132,7 @@ along = { energy = [815, 818] }
 /// A curve of torus points of a family ends where its pair of multipliers meets the 1 of the conserved energy. Along
 /// the family there, by energy at the same angle of attack, other walks branch off at the same orbit.
 TEST_F(SpringWalker, ItsTorusPointsEndWhereTheyMeetTheFamily) {
-    const std::string study = R"(name = "s"
-model = "spring-walker"
-[runs.walk]
-kind = "orbit"
-signature = "touchdown takeoff"
-[runs.family]
+    const std::string study = walk + R"([runs.family]
 kind = "continue"
 start = { run = "walk" }
 along = { energy = [780, 816] }
