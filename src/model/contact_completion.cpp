@@ -250,8 +250,8 @@ private:
         for (const std::size_t contact : closing)
             if (after[contact] == ContactState::open) // another contact keeps this one open, but normal speeds vanish
                 after[contact] = rest_beside_others(base, after, contact);
-        if (!modes_.moves(base,
-                          after)) // the last impulses of a contact, which is almost closed, say no more of its slip
+        // The last impulses of a contact that is almost closed say no more of its slip.
+        if (!modes_.moves(base, after))
             for (const std::size_t contact : closing)
                 if (after[contact] != ContactState::closed)
                     after[contact] = rest_beside_others(base, after, contact);

@@ -81,18 +81,20 @@ void OrbitEquations::lay_out(const Orbit& orbit, const std::vector<std::size_t>&
     ends_.lay_cuts(orbit, scales_.head(index(layout_.states())));
     if (homoclinic_)
         keep_distances(unknowns);
-    if (std::vector<double> end; cycle_)
-        cycle_->set_scales(extents(unknowns, end));
+    if (cycle_) {
+        std::vector<double> end, parameters;
+        cycle_->set_scales(extents(unknowns, parameters, end));
+    }
     OrbitEvaluation at = evaluation();
     if (layout_.free() > 0 && evaluate(unknowns, at)) // the evaluation has measured the effects of the parameters
         set_scales(unknowns);
 }
 
-/// Returns the extents of the states along the orbit. @param end set to its last state
-Eigen::VectorXd OrbitEquations::extents(const Eigen::VectorXd& unknowns, std::vector<double>& end) {
+/// Returns the extents of the states along the orbit. @param parameters, end set to its parameters and last state
+Eigen::VectorXd OrbitEquations::extents(const Eigen::VectorXd& unknowns, std::vector<double>& parameters,
+                                        std::vector<double>& end) {
     constexpr int parts = 24;
     const std::size_t n = layout_.states();
-    std::vector<double> parameters;
     set_parameters(unknowns, parameters);
     StateScales sizes(n);
     sizes.begin();
@@ -112,8 +114,7 @@ Eigen::VectorXd OrbitEquations::extents(const Eigen::VectorXd& unknowns, std::ve
 /// Keeps the distances from the saddle at which an orbit begins and ends, in units of the extents of the states.
 void OrbitEquations::keep_distances(const Eigen::VectorXd& unknowns) {
     std::vector<double> end, parameters;
-    const Eigen::VectorXd sizes = extents(unknowns, end);
-    set_parameters(unknowns, parameters);
+    const Eigen::VectorXd sizes = extents(unknowns, parameters, end);
     homoclinic_->keep_distances({unknowns.data(), layout_.states()}, end, parameters, sizes);
 }
 

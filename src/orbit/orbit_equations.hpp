@@ -173,7 +173,7 @@ private:
     SegmentEnds::Passed passed_at(std::size_t piece) const;
     double duration_of_segment(const Eigen::VectorXd& unknowns, std::size_t segment) const;
     void set_contacts(const Orbit& orbit, std::size_t segment, Eigen::VectorXd& unknowns);
-    Eigen::VectorXd extents(const Eigen::VectorXd& unknowns, std::vector<double>& end);
+    Eigen::VectorXd extents(const Eigen::VectorXd& unknowns, std::vector<double>& parameters, std::vector<double>& end);
     void keep_distances(const Eigen::VectorXd& unknowns);
     bool accumulate(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at);
     bool evaluate_piece(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at);
