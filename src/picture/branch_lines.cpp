@@ -64,6 +64,16 @@ struct Stretch {
     std::vector<std::size_t> points;
 };
 
+/// True when a torus is the first one beyond a tongue, of whose orbits the ends are listed before it, that takes more
+/// than half of the way from the torus before: in between there are none to draw a line through.
+bool is_beyond_wide_tongue(const std::vector<DrawnPoint>& points, std::size_t at) {
+    std::size_t first = at;
+    while (first > 0 && points[first - 1].type == PointType::locking)
+        --first;
+    return first > 0 && first < at &&
+           std::abs(points[at - 1].x - points[first].x) > 0.5 * std::abs(points[at].x - points[first - 1].x);
+}
+
 /// The stretches of all parts of a branch, one after the other. At a special point stability is decided by rounding
 /// errors; so the look is that of the adjacent ordinary points, and changes at the first special point between
 /// different ones.
@@ -85,8 +95,12 @@ std::vector<Stretch> stretches_of(const DrawnBranch& branch) {
         };
         const std::size_t first = next_ordinary(i);
         Look look = look_of(first < end ? first : i);
-        stretches.push_back({look, {i}});
-        for (std::size_t k = i + 1; k < end; ++k) {
+        stretches.push_back({look, {}});
+        for (std::size_t k = i; k < end; ++k) {
+            if (points[k].type == PointType::locking) // an orbit beside the tori
+                continue;
+            if (is_beyond_wide_tongue(points, k))
+                stretches.push_back({look, {}});
             stretches.back().points.push_back(k);
             const std::size_t next = next_ordinary(k);
             const Look coming = look_of(next < end ? next : k);
