@@ -41,8 +41,8 @@ struct Motion {
     }
 
     /// Rates of the derivatives in one direction, as in HeyokaPeer.
-    std::array<expression, count_of_states> derivative_rates(std::size_t direction,
-                                                    const std::array<expression, count_of_states>& column) const {
+    std::array<expression, count_of_states>
+    derivative_rates(std::size_t direction, const std::array<expression, count_of_states>& column) const {
         constexpr std::size_t phase = count_of_states;
         std::array<expression, count_of_states> result;
         for (std::size_t k = 0; k < count_of_states; ++k) {
@@ -57,8 +57,7 @@ struct Motion {
     }
 
     /// Makes the phase a function of time or appends its states, and replaces parameters by numbers.
-    Equations finish(Equations equations, const OdeintPeer::Parameters& groups, bool rotates,
-                     bool free_voltage) const {
+    Equations finish(Equations equations, const OdeintPeer::Parameters& groups, bool rotates, bool free_voltage) const {
         std::map<expression, expression> known = {{parameters[1], expression{groups.damping}},
                                                   {parameters[2], expression{groups.resistance}},
                                                   {parameters[3], expression{groups.inductance}}};
@@ -85,17 +84,7 @@ struct Motion {
 } // namespace
 
 std::string HeyokaChoice::name() const {
-    return std::string(rotating_phase ? "phase as states" : "phase by time") + (fast_math ? ", fast math" : "") +
-           (widest ? ", wide" : "");
-}
-
-std::vector<HeyokaChoice> HeyokaChoice::all() {
-    std::vector<HeyokaChoice> result;
-    for (const bool rotating : {false, true})
-        for (const bool fast : {true, false})
-            for (const bool wide : {false, true})
-                result.push_back({rotating, fast, wide});
-    return result;
+    return std::string(rotating_phase ? "phase as states" : "phase by time") + (slp_vectorize ? ", SLP" : "");
 }
 
 class HeyokaPeer::Integrator {
@@ -122,9 +111,9 @@ public:
         const double begin = phase / groups_.frequency;
         system_.set_time(begin);
         system_.reset_cooldowns();
-        const heyoka::taylor_outcome outcome =
-            output_ == HeyokaOutput::grid ? run_grid(begin, begin + duration)
-                                          : std::get<0>(system_.propagate_until(begin + duration));
+        const heyoka::taylor_outcome outcome = output_ == HeyokaOutput::grid
+                                                   ? run_grid(begin, begin + duration)
+                                                   : std::get<0>(system_.propagate_until(begin + duration));
         if (outcome != heyoka::taylor_outcome::time_limit)
             throw std::runtime_error("heyoka does not reach the end");
     }
@@ -167,7 +156,7 @@ private:
             });
         return System(equations, std::vector<double>(equations.size()), kw::tol = tolerance,
                       kw::t_events = std::vector{stop}, kw::nt_events = watched, kw::opt_level = 3u,
-                      kw::fast_math = choice.fast_math, kw::slp_vectorize = choice.widest);
+                      kw::fast_math = true, kw::slp_vectorize = choice.slp_vectorize);
     }
 
     /// Newton's law, and for derivatives the changed time of the impact.
@@ -275,10 +264,10 @@ private:
 
     System make(double tolerance, HeyokaChoice choice) {
         const Motion motion(groups_);
-        const Equations equations = motion.finish(
-            {heyoka::prime(motion.x) = motion.rates[0], heyoka::prime(motion.v) = motion.rates[1],
-             heyoka::prime(motion.i) = motion.rates[2]},
-            groups_, rotates_, true);
+        const Equations equations =
+            motion.finish({heyoka::prime(motion.x) = motion.rates[0], heyoka::prime(motion.v) = motion.rates[1],
+                           heyoka::prime(motion.i) = motion.rates[2]},
+                          groups_, rotates_, true);
         const heyoka::t_event_batch<double> stop(
             groups_.stop - motion.x, kw::direction = heyoka::event_direction::negative,
             kw::callback = [this](System& system, int, std::uint32_t lane) {
@@ -289,8 +278,8 @@ private:
                 return true;
             });
         return System(equations, std::vector<double>(batch * equations.size()), static_cast<std::uint32_t>(batch),
-                      kw::tol = tolerance, kw::t_events = std::vector{stop}, kw::opt_level = 3u,
-                      kw::fast_math = choice.fast_math, kw::force_avx512 = choice.widest);
+                      kw::tol = tolerance, kw::t_events = std::vector{stop}, kw::opt_level = 3u, kw::fast_math = true,
+                      kw::force_avx512 = true);
     }
 
     OdeintPeer::Parameters groups_;

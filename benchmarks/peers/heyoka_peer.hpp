@@ -21,10 +21,8 @@ enum class HeyokaOutput {
 /// Choices that a careful user of heyoka would try: which is fastest depends on the processor and the tolerance.
 struct HeyokaChoice {
     bool rotating_phase = false; ///< sine and cosine of the phase are states; otherwise functions of time
-    bool fast_math = true;       ///< floating-point operations may be reordered
-    bool widest = false;         ///< one trajectory: vectorise by SLP; batches: use AVX-512
+    bool slp_vectorize = false;  ///< of one trajectory: vectors are made of operations that are alike
     std::string name() const;
-    static std::vector<HeyokaChoice> all();
 };
 
 /// The electromagnetic vibro-impactor by heyoka, in the nondimensional form of OdeintPeer. The phase is 0 at time 0.
@@ -53,7 +51,7 @@ private:
     std::unique_ptr<Integrator> integrator_;
 };
 
-/// The same for many voltages in batches, which share the time of their code and take their own steps.
+/// The same for many voltages, in batches whose members take their own steps.
 class HeyokaEnsemble {
 public:
     using State = OdeintPeer::State;

@@ -25,25 +25,34 @@ public:
         : motion_(&motion), count_(motion.states()), longest_(longest_step), work_(3 * count_) {}
 
     void run(const std::vector<double>& start, std::size_t mode, Real end) {
-        namespace odeint = boost::numeric::odeint;
+        begin(start, mode);
+        advance(end);
+    }
+
+    /// Starts at time 0.
+    void begin(const std::vector<double>& start, std::size_t mode) {
         all_.assign(count_ * (count_ + 2), 0);
         std::copy(start.begin(), start.end(), all_.begin());
         for (std::size_t j = 0; j < count_; ++j)
             all_[(j + 1) * count_ + j] = 1;
         mode_ = mode;
+        time_ = 0;
         meetings.clear();
+    }
+    void advance(Real end) {
+        namespace odeint = boost::numeric::odeint;
         auto controlled = odeint::make_controlled(tolerance, tolerance, longest_, Method());
-        Real time = 0, step = longest_ / 100;
-        while (time < end) {
-            step = std::min(step, end - time);
-            const bool is_last = step == end - time;
+        Real step = longest_ / 100;
+        while (time_ < end) {
+            step = std::min(step, end - time_);
+            const bool is_last = step == end - time_;
             const std::vector<Real> before = distances();
-            if (controlled.try_step([this](const auto& x, auto& rate, Real) { rates(x, rate); }, all_, time, step) ==
+            if (controlled.try_step([this](const auto& x, auto& rate, Real) { rates(x, rate); }, all_, time_, step) ==
                 odeint::fail)
                 continue;
             const std::size_t surface = met_since(before);
             if (surface < before.size())
-                meet(surface, time);
+                meet(surface);
             else if (is_last)
                 break;
         }
@@ -88,7 +97,7 @@ private:
         }
         return met;
     }
-    void meet(std::size_t surface, Real& time) {
+    void meet(std::size_t surface) {
         constexpr int iterations = 8;
         Vector rate(all_.size());
         for (int i = 0; i < iterations; ++i) {
@@ -96,10 +105,10 @@ private:
             const Real step = -distances()[surface] / motion_->gradient_times(mode_, surface, rate.data());
             if (std::abs(step) < 1e-19L)
                 break;
-            method_.do_step([this](const auto& x, auto& out, Real) { rates(x, out); }, all_, time, step);
-            time += step;
+            method_.do_step([this](const auto& x, auto& out, Real) { rates(x, out); }, all_, time_, step);
+            time_ += step;
         }
-        meetings.push_back({static_cast<double>(time), mode_, surface});
+        meetings.push_back({static_cast<double>(time_), mode_, surface});
         std::vector<Real*> columns;
         for (std::size_t j = 1; j < count_ + 2; ++j)
             columns.push_back(&all_[j * count_]);
@@ -108,7 +117,7 @@ private:
 
     const Motion<Real>* motion_;
     std::size_t count_, mode_ = 0;
-    Real longest_;
+    Real longest_, time_ = 0;
     Vector work_, all_;
     Method method_;
     std::vector<const Real*> columns_;
