@@ -111,16 +111,16 @@ public:
         const double begin = phase / groups_.frequency;
         system_.set_time(begin);
         system_.reset_cooldowns();
-        const heyoka::taylor_outcome outcome = output_ == HeyokaOutput::grid
-                                                   ? run_grid(begin, begin + duration)
-                                                   : std::get<0>(system_.propagate_until(begin + duration));
+        const auto [outcome, count] =
+            output_ == HeyokaOutput::grid ? run_grid(begin, begin + duration) : run_until(begin + duration);
+        steps = count;
         if (outcome != heyoka::taylor_outcome::time_limit)
             throw std::runtime_error("heyoka does not reach the end");
     }
 
     double value(std::size_t index) const { return system_.get_state()[index]; }
 
-    std::size_t impacts = 0;
+    std::size_t impacts = 0, steps = 0;
     std::vector<State> passages;
 
 private:
@@ -180,7 +180,14 @@ private:
         }
     }
 
-    heyoka::taylor_outcome run_grid(double begin, double end) {
+    using Ending = std::pair<heyoka::taylor_outcome, std::size_t>; ///< with the number of steps
+
+    Ending run_until(double end) {
+        const auto result = system_.propagate_until(end);
+        return {std::get<0>(result), std::get<3>(result)};
+    }
+
+    Ending run_grid(double begin, double end) {
         const double half_turn = std::numbers::pi / groups_.frequency;
         std::vector<double> times = {begin};
         for (double count = std::ceil(begin / half_turn); count * half_turn < end; ++count)
@@ -191,7 +198,7 @@ private:
         const std::size_t size = system_.get_dim(), count = all.size() / size;
         for (std::size_t p = 1; p + 1 < count; ++p)
             passages.push_back({all[p * size], all[p * size + 1], all[p * size + 2]});
-        return std::get<0>(result);
+        return {std::get<0>(result), std::get<3>(result)};
     }
 
     OdeintPeer::Parameters groups_;
@@ -219,6 +226,9 @@ double HeyokaPeer::derivative(std::size_t state, std::size_t direction) const {
 std::size_t HeyokaPeer::impacts() const {
     return integrator_->impacts;
 }
+std::size_t HeyokaPeer::steps() const {
+    return integrator_->steps;
+}
 const std::vector<HeyokaPeer::State>& HeyokaPeer::passages() const {
     return integrator_->passages;
 }
@@ -226,7 +236,7 @@ const std::vector<HeyokaPeer::State>& HeyokaPeer::passages() const {
 class HeyokaEnsemble::Integrator {
 public:
     Integrator(const OdeintPeer::Parameters& groups, double tolerance, HeyokaChoice choice)
-        : groups_(groups), rotates_(choice.rotating_phase), system_(make(tolerance, choice)) {}
+        : groups_(groups), rotates_(choice.rotating_phase), system_(make(tolerance)) {}
     Integrator(const Integrator&) = delete;
     Integrator& operator=(const Integrator&) = delete;
 
@@ -262,7 +272,7 @@ public:
 private:
     using System = heyoka::taylor_adaptive_batch<double>;
 
-    System make(double tolerance, HeyokaChoice choice) {
+    System make(double tolerance) {
         const Motion motion(groups_);
         const Equations equations =
             motion.finish({heyoka::prime(motion.x) = motion.rates[0], heyoka::prime(motion.v) = motion.rates[1],

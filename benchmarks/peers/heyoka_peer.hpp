@@ -45,6 +45,8 @@ public:
     double derivative(std::size_t state, std::size_t direction) const;
     std::size_t impacts() const;
     const std::vector<State>& passages() const;
+    /// Of the last run.
+    std::size_t steps() const;
 
 private:
     class Integrator;

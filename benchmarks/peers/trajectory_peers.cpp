@@ -150,6 +150,7 @@ public:
     }
 
     State state() const { return course_->nondimensional(trajectory_.state()); }
+    std::size_t steps() const { return trajectory_.steps(); }
     std::size_t impacts() const { return told_.impacts; }
     std::vector<State> passages() const {
         std::vector<State> result;
@@ -240,18 +241,17 @@ PairedTiming alternate(double budget, Own&& own, Peer&& peer) {
     return timing;
 }
 
-void print_head(const char* title, const char* first) {
-    std::printf(
-        "\n%s\n\n| %s | tolerance | graze, periods/s | heyoka, periods/s | ratio | error, graze | error, heyoka | "
-        "heyoka with |\n|---|---|---|---|---|---|---|---|\n",
-        title, first);
+void print_head(const char* title) {
+    std::printf("\n%s\n\n| output | tolerance | graze, periods/s | heyoka, periods/s | ratio | error, graze | error, "
+                "heyoka | steps a period | heyoka with |\n|---|---|---|---|---|---|---|---|---|\n",
+                title);
 }
 
 void print_row(const std::string& what, double tolerance, int periods, const PairedTiming& timing, double error,
-               double peer_error, const HeyokaChoice& choice) {
-    std::printf("| %s | %.0e | %.3g | %.3g | %.3f | %.1e | %.1e | %s |\n", what.c_str(), tolerance,
+               double peer_error, const std::string& steps, const HeyokaChoice& choice) {
+    std::printf("| %s | %.0e | %.3g | %.3g | %.3f | %.1e | %.1e | %s | %s |\n", what.c_str(), tolerance,
                 periods / timing.own(), periods / timing.peer(), timing.peer() / timing.own(), error, peer_error,
-                choice.name().c_str());
+                steps.c_str(), choice.name().c_str());
     std::fflush(stdout);
 }
 
@@ -266,7 +266,7 @@ constexpr std::array outputs = {NamedOutput{HeyokaOutput::none, "none"},
 
 void compare_one(const Course& course, double budget, bool quick) {
     const Truth truth(course);
-    print_head("One trajectory on the period-3 orbit; errors after 30 periods and at all sections", "output");
+    print_head("One trajectory on the period-3 orbit; errors after 30 periods and at all sections");
     for (const auto& [output, name] : outputs) {
         for (const double tolerance : tolerances) {
             GrazeRun own(course, tolerance, output);
@@ -276,8 +276,39 @@ void compare_one(const Course& course, double budget, bool quick) {
             if (own.passages().size() != heyoka.peer().passages().size())
                 throw std::runtime_error("graze and heyoka find different numbers of passages");
             print_row(name, tolerance, run_periods, timing, error_of(own, truth, output),
-                      error_of(heyoka.peer(), truth, output), heyoka.choice());
+                      error_of(heyoka.peer(), truth, output),
+                      std::to_string(own.steps() / run_periods) + ", " +
+                          std::to_string(heyoka.peer().steps() / run_periods),
+                      heyoka.choice());
         }
+    }
+}
+
+/// Both at many tolerances, and their speeds at equal error, the largest at all sections.
+void compare_at_equal_error(const Course& course, double budget, bool quick) {
+    constexpr HeyokaOutput output = HeyokaOutput::grid;
+    constexpr std::array levels = {1e-7, 1e-9, 1e-11, 1e-13};
+    constexpr int loosest = 5, tightest = 15; // powers of the tolerances
+    const Truth truth(course);
+    std::vector<Effort> own, peer;
+    for (int power = loosest; power <= tightest; ++power) {
+        const double tolerance = std::pow(10.0, -power);
+        GrazeRun run(course, tolerance, output);
+        HeyokaRun heyoka(course, tolerance, output, quick);
+        const PairedTiming timing = alternate(
+            0.5 * budget, [&] { run.run(); }, [&] { heyoka.run(course); });
+        own.push_back({tolerance, timing.own(), error_of(run, truth, output)});
+        peer.push_back({tolerance, timing.peer(), error_of(heyoka.peer(), truth, output)});
+    }
+    std::printf("\nOne trajectory with two sections, whose times heyoka is told, at equal error at all sections\n\n"
+                "| error | graze, periods/s | heyoka, periods/s | ratio |\n|---|---|---|---|\n");
+    for (const double level : levels) {
+        const auto seconds = seconds_at(own, level), other = seconds_at(peer, level);
+        if (seconds && other)
+            std::printf("| %.0e | %.3g | %.3g | %.3f |\n", level, run_periods / *seconds, run_periods / *other,
+                        *other / *seconds);
+        else
+            std::printf("| %.0e | %s | %s | - |\n", level, seconds ? "reached" : "-", other ? "reached" : "-");
     }
 }
 
@@ -349,8 +380,7 @@ void compare_ensembles(const Course& course, double budget, bool quick) {
         truth.push_back(state_of(reference));
     }
     print_head("64 trajectories at voltages near that of the orbit: graze's Ensemble and heyoka's batches of 8; errors "
-               "after 30 periods",
-               "output");
+               "after 30 periods");
     constexpr std::array choices = {HeyokaChoice{.rotating_phase = false}, HeyokaChoice{.rotating_phase = true}};
     for (const double tolerance : tolerances) {
         GrazeGroup own(course, voltages, tolerance);
@@ -367,7 +397,7 @@ void compare_ensembles(const Course& course, double budget, bool quick) {
             error = std::max(error, largest_difference(own.state(every * i), truth[i]));
             peer_error = std::max(peer_error, largest_difference(peer->states()[every * i], truth[i]));
         }
-        print_row("none", tolerance, run_periods * static_cast<int>(count), timing, error, peer_error, choice);
+        print_row("none", tolerance, run_periods * static_cast<int>(count), timing, error, peer_error, "-", choice);
     }
 }
 
@@ -427,6 +457,7 @@ void compare_trajectories(bool quick) {
     const double budget = quick ? 0.05 : 2;
     const Course course(run_periods);
     compare_one(course, budget, quick);
+    compare_at_equal_error(course, budget, quick);
     compare_ensembles(course, budget, quick);
     compare_costs(course, budget, quick);
     compare_derivatives_of_both(course, budget, quick);
