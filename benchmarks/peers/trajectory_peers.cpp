@@ -1,175 +1,31 @@
 #include "trajectory_peers.hpp"
 
-#include "../testbed.hpp"
+#include "graze_run.hpp"
 #include "heyoka_peer.hpp"
-#include "hybrid_case.hpp"
-#include "reference.hpp"
-
-#include "graze/trajectory/ensemble.hpp"
+#include "testbed_course.hpp"
+#include "work_precision.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <numbers>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace peers {
 
 namespace {
 
-using State = HeyokaPeer::State;
-using Columns = std::vector<State>; ///< derivatives, nondimensional, for each direction
+using State = Course::State;
+using Columns = std::vector<State>; ///< derivatives for each direction
 
 constexpr std::array tolerances = {1e-8, 1e-14};
 constexpr int run_periods = 30;       ///< of one run, which both repeat from the same state
 constexpr int derivative_periods = 3; ///< later, derivatives on the stable orbit have decayed
-/// Inputs of derivatives in the order of HeyokaPeer.
-const std::array<std::string, HeyokaPeer::most_directions> inputs = {"q", "v", "I", "theta", "V0", "zeta", "R", "Ll"};
-
-double largest_difference(const State& a, const State& b) {
-    double result = 0;
-    for (std::size_t k = 0; k < a.size(); ++k)
-        result = std::max(result, std::abs(a[k] - b[k]));
-    return result;
-}
-
-/// The motion that all follow: on the period-3 orbit, from a phase where neither section nor impact is near.
-class Course {
-public:
-    explicit Course(int periods) : one(testbed_case(periods)), start(nondimensional(one.start)), phase(one.start[3]) {
-        // Of each input in the order of `inputs`.
-        const std::array<double, 4> numbers = {groups.voltage, groups.damping, groups.resistance, groups.inductance};
-        input_units.assign(one.units.begin(), one.units.end());
-        for (std::size_t p = 0; p < numbers.size(); ++p)
-            input_units.push_back(one.model.values_of(std::vector{one.model.symbol(inputs[input_units.size()])})[0] /
-                                  numbers[p]);
-    }
-
-    State nondimensional(std::span<const double> state) const {
-        return {state[0] / one.units[0], state[1] / one.units[1], state[2] / one.units[2]};
-    }
-    double duration() const { return one.duration / one.time_unit; } ///< nondimensional
-
-    /// Starts the reference at another voltage, or the orbit's.
-    Reference reference(const Motions& motions) const {
-        Reference result(*motions.exact, static_cast<Reference::Real>(one.longest_step) / one.time_unit);
-        result.begin({start[0], start[1], start[2], phase}, one.mode);
-        return result;
-    }
-
-    Testbed testbed;
-    OdeintPeer::Parameters groups = testbed.groups();
-    HybridCase one;
-    State start;
-    double phase;
-    std::vector<double> input_units;
-};
-
-State state_of(const Reference& reference) {
-    return {static_cast<double>(reference.state(0)), static_cast<double>(reference.state(1)),
-            static_cast<double>(reference.state(2))};
-}
-
-/// States of the reference at all sections and at the end, and derivatives there.
-struct Truth {
-    std::vector<State> sections;
-    State end;
-    Columns columns;
-    std::size_t impacts = 0;
-
-    explicit Truth(const Course& course) {
-        Reference reference = course.reference(course.one.motions);
-        const auto half_turn = static_cast<Reference::Real>(std::numbers::pi_v<Reference::Real>);
-        const auto duration = static_cast<Reference::Real>(course.one.duration) / course.one.time_unit;
-        for (int count = 1;; ++count) {
-            const Reference::Real time = (count * half_turn - course.phase) / course.groups.frequency;
-            if (time >= duration)
-                break;
-            reference.advance(time);
-            sections.push_back(state_of(reference));
-        }
-        reference.advance(duration);
-        end = state_of(reference);
-        impacts = reference.meetings.size();
-        constexpr std::size_t known = 5; // the four states and the voltage
-        for (std::size_t d = 0; d < known; ++d)
-            columns.push_back({static_cast<double>(reference.derivative(0, d)),
-                               static_cast<double>(reference.derivative(1, d)),
-                               static_cast<double>(reference.derivative(2, d))});
-    }
-};
-
-/// What graze tells during a run.
-struct Told : graze::Observer {
-    std::size_t impacts = 0;
-    std::vector<State> passages;
-    void contact(const graze::Contact& contact) override {
-        impacts += contact.kind == graze::ContactKind::crossing ? 1 : 0;
-    }
-    void passage(const graze::Passage& passage) override {
-        passages.push_back({passage.state[0], passage.state[1], passage.state[2]});
-    }
-};
-
-std::vector<graze::Probe> probes_of(const graze::Model& model, HeyokaOutput output) {
-    std::vector<graze::Probe> result;
-    if (output != HeyokaOutput::none)
-        for (const char* section : {"phase0", "phasepi"})
-            result.push_back(graze::section_probe(model, section));
-    if (output == HeyokaOutput::extrema)
-        result.push_back(graze::section_probe(model, "nearest"));
-    return result;
-}
-
-/// Runs of graze with the interface of HeyokaPeer.
-class GrazeRun {
-public:
-    GrazeRun(const Course& course, double tolerance, HeyokaOutput output, std::size_t directions = 0)
-        : course_(&course), simulation_(graze::System(course.one.model), probes_of(course.one.model, output), {},
-                                        {.tolerance = tolerance}),
-          jets_(simulation_, graze::LaneKind::single),
-          trajectory_(simulation_, course.one.model.parameter_values(), borrowed(told_)),
-          inputs_(inputs.begin(), inputs.begin() + static_cast<std::ptrdiff_t>(directions)) {}
-    GrazeRun(const GrazeRun&) = delete;
-    GrazeRun& operator=(const GrazeRun&) = delete;
-
-    void run() {
-        told_.impacts = 0;
-        told_.passages.clear();
-        trajectory_.start(course_->one.start, course_->one.mode, 0, course_->one.duration);
-        if (!inputs_.empty())
-            trajectory_.carry_derivatives(inputs_);
-        graze::run(trajectory_, jets_);
-        if (trajectory_.outcome().ending != graze::Ending::end_time)
-            throw std::runtime_error("graze does not reach the end: " + trajectory_.outcome().detail);
-    }
-
-    State state() const { return course_->nondimensional(trajectory_.state()); }
-    std::size_t steps() const { return trajectory_.steps(); }
-    std::size_t impacts() const { return told_.impacts; }
-    std::vector<State> passages() const {
-        std::vector<State> result;
-        for (const State& passage : told_.passages)
-            result.push_back(course_->nondimensional(passage));
-        return result;
-    }
-    double derivative(std::size_t state, std::size_t direction) const {
-        return trajectory_.derivative(state, direction) * course_->input_units[direction] / course_->one.units[state];
-    }
-
-private:
-    const Course* course_;
-    graze::Simulation simulation_;
-    graze::JetSet jets_;
-    Told told_;
-    graze::Trajectory trajectory_;
-    std::vector<std::string> inputs_;
-};
 
 /// The fastest of heyoka's choices, made ready.
 template <class Peer>
@@ -265,7 +121,7 @@ constexpr std::array outputs = {NamedOutput{HeyokaOutput::none, "none"},
                                 NamedOutput{HeyokaOutput::extrema, "two sections, and maxima of the displacement"}};
 
 void compare_one(const Course& course, double budget, bool quick) {
-    const Truth truth(course);
+    const Truth truth(course, course.duration_of_graze()), peer_truth(course, course.duration_of_heyoka());
     print_head("One trajectory on the period-3 orbit; errors after 30 periods and at all sections");
     for (const auto& [output, name] : outputs) {
         for (const double tolerance : tolerances) {
@@ -276,7 +132,7 @@ void compare_one(const Course& course, double budget, bool quick) {
             if (own.passages().size() != heyoka.peer().passages().size())
                 throw std::runtime_error("graze and heyoka find different numbers of passages");
             print_row(name, tolerance, run_periods, timing, error_of(own, truth, output),
-                      error_of(heyoka.peer(), truth, output),
+                      error_of(heyoka.peer(), peer_truth, output),
                       std::to_string(own.steps() / run_periods) + ", " +
                           std::to_string(heyoka.peer().steps() / run_periods),
                       heyoka.choice());
@@ -289,7 +145,7 @@ void compare_at_equal_error(const Course& course, double budget, bool quick) {
     constexpr HeyokaOutput output = HeyokaOutput::grid;
     constexpr std::array levels = {1e-7, 1e-9, 1e-11, 1e-13};
     constexpr int loosest = 5, tightest = 15; // powers of the tolerances
-    const Truth truth(course);
+    const Truth truth(course, course.duration_of_graze()), peer_truth(course, course.duration_of_heyoka());
     std::vector<Effort> own, peer;
     for (int power = loosest; power <= tightest; ++power) {
         const double tolerance = std::pow(10.0, -power);
@@ -298,7 +154,7 @@ void compare_at_equal_error(const Course& course, double budget, bool quick) {
         const PairedTiming timing = alternate(
             0.5 * budget, [&] { run.run(); }, [&] { heyoka.run(course); });
         own.push_back({tolerance, timing.own(), error_of(run, truth, output)});
-        peer.push_back({tolerance, timing.peer(), error_of(heyoka.peer(), truth, output)});
+        peer.push_back({tolerance, timing.peer(), error_of(heyoka.peer(), peer_truth, output)});
     }
     std::printf("\nOne trajectory with two sections, whose times heyoka is told, at equal error at all sections\n\n"
                 "| error | graze, periods/s | heyoka, periods/s | ratio |\n|---|---|---|---|\n");
@@ -334,50 +190,23 @@ void compare_costs(const Course& course, double budget, bool quick) {
     }
 }
 
-/// Trajectories at many voltages by graze's Ensemble.
-class GrazeGroup {
-public:
-    GrazeGroup(const Course& course, std::span<const double> voltages, double tolerance)
-        : course_(&course), simulation_(graze::System(course.one.model), {}, {}, {.tolerance = tolerance}),
-          ensemble_(simulation_), told_(voltages.size()) {
-        graze::Model model = course.one.model;
-        for (std::size_t i = 0; i < voltages.size(); ++i) {
-            model.set_parameter("V0", voltages[i] * course.one.parameter_unit);
-            trajectories_.emplace_back(simulation_, model.parameter_values(), borrowed(told_[i]));
-        }
-    }
-    GrazeGroup(const GrazeGroup&) = delete;
-    GrazeGroup& operator=(const GrazeGroup&) = delete;
-
-    void run() {
-        for (graze::Trajectory& trajectory : trajectories_)
-            trajectory.start(course_->one.start, course_->one.mode, 0, course_->one.duration);
-        ensemble_.run(trajectories_);
-    }
-    State state(std::size_t i) const { return course_->nondimensional(trajectories_[i].state()); }
-
-private:
-    const Course* course_;
-    graze::Simulation simulation_;
-    graze::Ensemble ensemble_;
-    std::vector<Told> told_;
-    std::vector<graze::Trajectory> trajectories_;
-};
-
 void compare_ensembles(const Course& course, double budget, bool quick) {
     constexpr std::size_t count = 64, every = 8;
     constexpr double spread = 0.01; // of the voltage, in volts
     std::vector<double> voltages;
     for (std::size_t i = 0; i < count; ++i)
         voltages.push_back(course.groups.voltage + spread * static_cast<double>(i) / count / course.one.parameter_unit);
-    std::vector<State> truth;
+    std::vector<std::pair<State, State>> truth; // for graze and for heyoka
     for (std::size_t i = 0; i < count; i += every) {
         OdeintPeer::Parameters groups = course.groups;
         groups.voltage = voltages[i];
         const Motions motions = testbed_motions(groups);
-        Reference reference = course.reference(motions);
-        reference.advance(static_cast<Reference::Real>(course.one.duration) / course.one.time_unit);
-        truth.push_back(state_of(reference));
+        const auto end = [&](Reference::Real duration) {
+            Reference reference = course.reference(motions);
+            reference.advance(duration);
+            return state_of(reference);
+        };
+        truth.emplace_back(end(course.duration_of_graze()), end(course.duration_of_heyoka()));
     }
     print_head("64 trajectories at voltages near that of the orbit: graze's Ensemble and heyoka's batches of 8; errors "
                "after 30 periods");
@@ -392,10 +221,12 @@ void compare_ensembles(const Course& course, double budget, bool quick) {
             run_peer);
         const PairedTiming timing = alternate(
             budget, [&] { own.run(); }, [&] { run_peer(*peer); });
+        if (own.impacts() != peer->impacts())
+            throw std::runtime_error("graze and heyoka find different numbers of impacts");
         double error = 0, peer_error = 0;
         for (std::size_t i = 0; i < truth.size(); ++i) {
-            error = std::max(error, largest_difference(own.state(every * i), truth[i]));
-            peer_error = std::max(peer_error, largest_difference(peer->states()[every * i], truth[i]));
+            error = std::max(error, largest_difference(own.state(every * i), truth[i].first));
+            peer_error = std::max(peer_error, largest_difference(peer->states()[every * i], truth[i].second));
         }
         print_row("none", tolerance, run_periods * static_cast<int>(count), timing, error, peer_error, "-", choice);
     }
@@ -419,7 +250,7 @@ double distance(const Columns& a, const Columns& b) {
 
 void compare_derivatives_of_both(const Course& course, double budget, bool quick) {
     const Course brief(derivative_periods);
-    const Truth truth(brief);
+    const Truth truth(brief, brief.duration_of_graze());
     std::printf(
         "\nDerivatives: share of the motion's speed, and heyoka's time with them divided by graze's; errors after "
         "%d periods, by states and voltage; last, how far apart both are by all inputs\n\n| inputs | tolerance | "
