@@ -41,7 +41,7 @@ Fastest<Peer> fastest_of(std::span<const HeyokaChoice> choices, bool quick, Make
     double least = INFINITY;
     for (const HeyokaChoice choice : choices.first(quick ? 1 : choices.size())) {
         auto peer = std::make_unique<Peer>(make(choice));
-        constexpr double budget = 0.1;
+        constexpr double budget = 0.3;
         const double time = least_seconds(budget, [&] { run(*peer); });
         if (time < least) {
             least = time;
