@@ -14,13 +14,16 @@
 
 namespace {
 
-void compare_with_heyoka([[maybe_unused]] bool quick) {
+/// @return whether heyoka is there
+bool compare_with_heyoka([[maybe_unused]] bool quick) {
 #ifdef GRAZE_HEYOKA
     peers::compare_trajectories(quick);
+    return true;
 #else
     std::printf("\nTrajectories are not compared: heyoka was not found. It is a library in C++ "
                 "(https://github.com/bluescarni/heyoka); if it is installed in PREFIX, tell CMake with\n"
                 "    CMAKE_PREFIX_PATH=PREFIX ./run peers trajectories\n");
+    return false;
 #endif
 }
 
@@ -47,8 +50,8 @@ int main(int count, char** arguments) {
             peers::compare_branches(quick);
         if (derivatives || all)
             peers::compare_derivatives(quick);
-        if (trajectories || all)
-            compare_with_heyoka(quick);
+        if ((trajectories || all) && !compare_with_heyoka(quick) && trajectories)
+            return 1;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "peers: %s\n", error.what());
         return 1;
