@@ -28,10 +28,7 @@ std::vector<SpecialPoint> EquilibriumLocator::locate_all(const DescribedEquilibr
         for (const Bracket& bracket : brackets_of(i, before.tests[i], here.tests[i]))
             if (auto special = locate(i, bracket, before, here))
                 found.push_back(std::move(*special));
-    older_.clear();
-    for (const BranchTest& test : before.tests)
-        older_.push_back(test.value);
-    older_arclength_ = before.at.arclength;
+    history_.add(before.at.arclength, before.tests);
     const double length = here.at.arclength - before.at.arclength;
     std::erase_if(found, [&](const SpecialPoint& one) {
         return one.type == PointType::fold && std::ranges::any_of(found, [&](const SpecialPoint& other) {
@@ -58,18 +55,17 @@ std::vector<EquilibriumLocator::Bracket> EquilibriumLocator::brackets_of(std::si
         return {};
     if (low.value * high.value < 0 || (high.value == 0 && low.value != 0))
         return {{low, high}};
-    if (test >= older_.size() || !(low.value * high.value > 0))
+    if (!(low.value * high.value > 0))
         return {};
-    const double length = continuation_->point().arclength - continuation_->previous().arclength;
-    const TestValue older{(older_arclength_ - continuation_->previous().arclength) / length, older_[test]};
-    const auto dip = possible_dip(older, low, high);
+    const double begin = continuation_->previous().arclength, length = continuation_->point().arclength - begin;
+    const auto dip = history_.possible_dip(test, begin, length, low, high);
     if (!dip)
         return {};
-    const auto zeros = dip_between(low, high, *dip, [&](double fraction) {
+    const auto zeros = dip_between(low, high, *dip, noise, [&](double fraction) {
         const auto there = describe_between(fraction);
         return there ? there->tests[test].value : not_a_number;
     });
-    if (!zeros || std::abs(zeros->within.value) <= noise)
+    if (!zeros)
         return {};
     return {{zeros->before, zeros->within}, {zeros->within, zeros->behind}};
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "branch/crossing.hpp"
 #include "branch/equilibrium_tests.hpp"
+#include "branch/test_history.hpp"
 #include "graze/branch/continuation.hpp"
 
 #include <optional>
@@ -19,7 +19,7 @@ public:
     /// Returns the points between two successive points, in the order of the branch.
     std::vector<SpecialPoint> locate_all(const DescribedEquilibrium& before, const DescribedEquilibrium& here);
     /// Forgets the point before the last step, after a start.
-    void forget() { older_.clear(); }
+    void forget() { history_.forget(); }
     /// True when the points found account for the change of the number of unstable eigenvalues.
     static bool explains(const std::vector<SpecialPoint>& found, const DescribedEquilibrium& before,
                          const DescribedEquilibrium& here);
@@ -41,8 +41,7 @@ private:
 
     const EquilibriumPath* path_;
     Continuation* continuation_;
-    std::vector<double> older_; ///< values of the tests one step before, for `possible_dip`
-    double older_arclength_ = 0;
+    TestHistory history_;
 };
 
 } // namespace graze

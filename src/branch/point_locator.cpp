@@ -31,15 +31,27 @@ bool is_jump(const BranchTest& touch) {
 std::vector<SpecialPoint> PointLocator::locate_all(const DescribedPoint& before) {
     const std::vector<BranchTest>& tests = before.tests;
     std::vector<SpecialPoint> found;
-    if (tests.size() != here_->tests.size())
+    if (tests.size() != here_->tests.size()) {
+        history_.forget();
         return found;
+    }
     const double from = before.point.arclength, length = here_->point.arclength - from;
-    for (std::size_t i = 0; i < tests.size(); ++i)
-        for (const auto& [low, high] : brackets_of(i, tests[i].value))
-            if (std::optional<SpecialPoint> special = locate(i, low, high)) {
-                note(*special, before.point, tests[i].singular);
-                found.push_back(std::move(*special));
-            }
+    if (history_.is_empty())
+        sample_first_step();
+    for (std::size_t i = 0; i < tests.size(); ++i) {
+        const std::vector<Bracket> brackets = brackets_of(i, tests[i].value);
+        std::vector<SpecialPoint> zeros;
+        for (const auto& [low, high] : brackets)
+            if (std::optional<SpecialPoint> special = locate(i, low, high))
+                zeros.push_back(std::move(*special));
+        if (brackets.size() == 2 && zeros.size() < 2 && tests[i].singular)
+            if (std::vector<SpecialPoint> pair = locate_pair_of_crossings(i, brackets); !pair.empty())
+                zeros = std::move(pair);
+        for (SpecialPoint& special : zeros) {
+            note(special, before.point, tests[i].singular);
+            found.push_back(std::move(special));
+        }
+    }
     add_bounds_before(found, before);
     if (state_->settings().kept)
         if (std::optional<SpecialPoint> simpler = locate_simpler()) {
@@ -53,8 +65,7 @@ std::vector<SpecialPoint> PointLocator::locate_all(const DescribedPoint& before)
             note(*simpler, before.point, true);
             found.push_back(std::move(*simpler));
         }
-    older_ = tests;
-    older_arclength_ = from;
+    history_.add(from, tests);
     sort_by_place(found);
     for (SpecialPoint& special : found) {
         if (special.type == PointType::bound)
@@ -185,7 +196,7 @@ bool PointLocator::misses_bound(const std::vector<SpecialPoint>& found, const De
 }
 
 /// Returns the parts of the last step in which a test changes its sign.
-std::vector<std::pair<TestValue, TestValue>> PointLocator::brackets_of(std::size_t test, double before) {
+std::vector<PointLocator::Bracket> PointLocator::brackets_of(std::size_t test, double before) {
     const BranchTest& now = here_->tests[test];
     const TestValue low{0, before}, high{1, now.value};
     const double noise = now.noise;
@@ -203,19 +214,37 @@ std::vector<std::pair<TestValue, TestValue>> PointLocator::brackets_of(std::size
         return {};
     if (low.value * high.value < 0 || appeared || vanished || (high.value == 0 && low.value != 0))
         return {{low, high}};
-    if (older_.size() != here_->tests.size() || !(low.value * high.value > 0))
+    if (!(low.value * high.value > 0))
         return {};
-    const auto dip = possible_dip({state_->last_step().fraction(older_arclength_), older_[test].value}, low, high);
+    const LastStep step = state_->last_step();
+    const auto dip = history_.possible_dip(test, step.from, step.length, low, high);
     if (!dip)
         return {};
     const auto value_at = [&](double fraction) {
         const auto there = state_->describe_between(fraction);
         return there ? there->tests[test].value : not_a_number;
     };
-    const auto zeros = dip_between(low, high, *dip, value_at);
-    if (!zeros || std::abs(zeros->within.value) <= noise)
+    const auto zeros = dip_between(low, high, *dip, share_of_noise() * noise, value_at);
+    if (!zeros)
         return {};
     return {{zeros->before, zeros->within}, {zeros->within, zeros->behind}};
+}
+
+/// Before the first step no point is known: a point within the step takes its place.
+void PointLocator::sample_first_step() {
+    const LastStep step = state_->last_step();
+    constexpr double middle = 0.5;
+    const auto there = state_->describe_between(middle);
+    if (there && there->tests.size() == here_->tests.size())
+        history_.add(step.from + middle * step.length, there->tests);
+}
+
+/// Returns the share of a test's noise up to which a value is unknown where the test is far from zero on both sides.
+/// The noise allows for inaccurate orbits, and for tests that vanish on whole branches; values change by some
+/// tolerances.
+double PointLocator::share_of_noise() const {
+    constexpr double tolerances = 10, relative_noise = 1e-9, least = 1e-3;
+    return std::clamp(tolerances * state_->settings().orbit.tolerance / relative_noise, least, 1.0);
 }
 
 std::optional<SpecialPoint> PointLocator::locate(std::size_t test, const TestValue& low, const TestValue& high) {
@@ -317,7 +346,6 @@ std::optional<SpecialPoint> PointLocator::locate_simpler() {
 std::optional<SpecialPoint> PointLocator::locate_by_crossing(std::size_t test, const TestValue& low,
                                                              const TestValue& high) {
     constexpr double reduction = 0.25, shortest = 1e-3;
-    constexpr double solved = 1e-8; // scaled residual
     const bool singular = here_->tests[test].singular;
     const PointTest value = [&](const ContinuationPoint& sample) {
         if (singular)
@@ -330,11 +358,33 @@ std::optional<SpecialPoint> PointLocator::locate_by_crossing(std::size_t test, c
     const bool is_part = high.fraction - low.fraction < 1;
     for (double reach = reduction; is_part && !at && reach > shortest; reach *= reduction)
         at = locate_crossing(state_->continuation(), value, low, high, reach);
-    const auto there = at ? state_->describe(*at) : std::nullopt;
+    return at ? crossing_at(*at, test, low.value, high.value) : std::nullopt;
+}
+
+/// Locates two crossings with other branches between which no solution can be relied upon.
+std::vector<SpecialPoint> PointLocator::locate_pair_of_crossings(std::size_t test,
+                                                                 const std::vector<Bracket>& brackets) {
+    const Dip dip{brackets[0].first, brackets[0].second, brackets[1].second};
+    const PointTest value = [](const ContinuationPoint& sample) { return sample.determinant; };
+    const auto pair = locate_pair(state_->continuation(), value, dip);
+    if (!pair)
+        return {};
+    std::vector<SpecialPoint> result;
+    for (const ContinuationPoint& at : {pair->first, pair->second})
+        if (auto special = crossing_at(at, test, dip.before.value, dip.behind.value))
+            result.push_back(std::move(*special));
+    return result;
+}
+
+/// Returns the special point of an interpolated zero, if it is confirmed. @param first, last the test at both ends
+std::optional<SpecialPoint> PointLocator::crossing_at(const ContinuationPoint& at, std::size_t test, double first,
+                                                      double last) {
+    constexpr double solved = 1e-8; // scaled residual
+    const auto there = state_->describe(at);
     // If two nearby branches do not cross, the interpolated point does not satisfy the equations.
-    if (!there || (singular && !(state_->problem().evaluation().residual < solved)))
+    if (!there || (here_->tests[test].singular && !(state_->problem().evaluation().residual < solved)))
         return std::nullopt;
-    return special_at(there->point, there->tests[test], std::max(std::abs(low.value), std::abs(high.value)));
+    return special_at(there->point, there->tests[test], std::max(std::abs(first), std::abs(last)));
 }
 
 /// Returns the special point of a zero, if it is confirmed. @param size of the test at the ends of the bracket

@@ -2,6 +2,7 @@
 
 #include "branch/branch_state.hpp"
 #include "branch/crossing.hpp"
+#include "branch/test_history.hpp"
 
 #include <optional>
 #include <utility>
@@ -24,11 +25,16 @@ public:
     /// True when the end of the step, or a found point, lies beyond a bound although no point on the bound was found.
     bool misses_bound(const std::vector<SpecialPoint>& found, const DescribedPoint& before) const;
     /// Forgets earlier tests, after a change of the equations.
-    void forget() { older_.clear(); }
+    void forget() { history_.forget(); }
 
 private:
-    std::vector<std::pair<TestValue, TestValue>> brackets_of(std::size_t test, double before);
+    using Bracket = std::pair<TestValue, TestValue>;
+    std::vector<Bracket> brackets_of(std::size_t test, double before);
+    double share_of_noise() const;
+    void sample_first_step();
     std::optional<SpecialPoint> locate(std::size_t test, const TestValue& low, const TestValue& high);
+    std::vector<SpecialPoint> locate_pair_of_crossings(std::size_t test, const std::vector<Bracket>& brackets);
+    std::optional<SpecialPoint> crossing_at(const ContinuationPoint& at, std::size_t test, double first, double last);
     std::optional<SpecialPoint> locate_zero(std::size_t test, const TestValue& begin, const TestValue& end,
                                             bool& complete);
     std::optional<SpecialPoint> locate_by_crossing(std::size_t test, const TestValue& low, const TestValue& high);
@@ -41,8 +47,7 @@ private:
 
     BranchState* state_;
     const DescribedPoint* here_;
-    std::vector<BranchTest> older_; ///< tests at the start point of the previous step
-    double older_arclength_ = 0;
+    TestHistory history_;
 };
 
 } // namespace graze

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "branch/crossing.hpp"
+#include "branch/point_kind.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace graze {
+
+/// The values of a branch's tests at the points before its last step, which tell where a test may have two zeros within
+/// the step although its sign is the same at both ends.
+class TestHistory {
+public:
+    void forget() { points_.clear(); }
+    bool is_empty() const { return points_.empty(); }
+    /// Adds the start of the last step, before the next step. @param arclength of the branch there
+    void add(double arclength, const std::vector<BranchTest>& tests);
+    /// Returns the place of a possible dip between the ends of a step, as a fraction of it; see graze::possible_dip.
+    /// @param begin, length arclength at the start of the step, and of it
+    std::optional<double> possible_dip(std::size_t test, double begin, double length, const TestValue& low,
+                                       const TestValue& high) const;
+
+private:
+    struct Point {
+        double arclength = 0;
+        std::vector<double> values;
+    };
+    static constexpr std::size_t most = 2;
+    std::vector<Point> points_; ///< the newest is the first
+};
+
+} // namespace graze
