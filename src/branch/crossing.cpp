@@ -281,10 +281,7 @@ private:
 
 std::optional<Dip> dip_between(const TestValue& low, const TestValue& high, double within, double noise,
                                const std::function<double(double)>& value_at) {
-    // Share of the values at the ends: smaller values are round-off, as where a test only touches zero.
-    constexpr double round_off = 1e-13;
-    const double size = std::min(std::abs(low.value), std::abs(high.value));
-    DipSearch search(low, high, low.value < 0 ? -1 : 1, std::max(noise, round_off * size), value_at);
+    DipSearch search(low, high, low.value < 0 ? -1 : 1, noise, value_at);
     return search.find(within);
 }
 

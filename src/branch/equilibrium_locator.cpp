@@ -61,7 +61,10 @@ std::vector<EquilibriumLocator::Bracket> EquilibriumLocator::brackets_of(std::si
     const auto dip = history_.possible_dip(test, begin, length, low, high);
     if (!dip)
         return {};
-    const auto zeros = dip_between(low, high, *dip, noise, [&](double fraction) {
+    // Smaller values than this share of those at the ends are round-off, as where a test only touches zero.
+    constexpr double round_off = 1e-10;
+    const double least = std::max(noise, round_off * std::min(std::abs(low.value), std::abs(high.value)));
+    const auto zeros = dip_between(low, high, *dip, least, [&](double fraction) {
         const auto there = describe_between(fraction);
         return there ? there->tests[test].value : not_a_number;
     });

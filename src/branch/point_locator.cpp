@@ -224,7 +224,7 @@ std::vector<PointLocator::Bracket> PointLocator::brackets_of(std::size_t test, d
         const auto there = state_->describe_between(fraction);
         return there ? there->tests[test].value : not_a_number;
     };
-    const auto zeros = dip_between(low, high, *dip, share_of_noise() * noise, value_at);
+    const auto zeros = dip_between(low, high, *dip, unknown_values(now, low, high), value_at);
     if (!zeros)
         return {};
     return {{zeros->before, zeros->within}, {zeros->within, zeros->behind}};
@@ -239,12 +239,16 @@ void PointLocator::sample_first_step() {
         history_.add(step.from + middle * step.length, there->tests);
 }
 
-/// Returns the share of a test's noise up to which a value is unknown where the test is far from zero on both sides.
-/// The noise allows for inaccurate orbits, and for tests that vanish on whole branches; values change by some
-/// tolerances.
-double PointLocator::share_of_noise() const {
+/// Returns the magnitude up to which values of a test may be round-off where it is far from zero on both sides.
+double PointLocator::unknown_values(const BranchTest& test, const TestValue& low, const TestValue& high) const {
+    // A test's noise allows for inaccurate orbits, and for tests that vanish on whole branches; in between, values
+    // change by some tolerances.
     constexpr double tolerances = 10, relative_noise = 1e-9, least = 1e-3;
-    return std::clamp(tolerances * state_->settings().orbit.tolerance / relative_noise, least, 1.0);
+    // Of tests without noise, shares of the values at the ends: some only touch zero.
+    constexpr double of_determinant = 1e-13, of_others = 1e-10;
+    if (test.noise > 0)
+        return std::clamp(tolerances * state_->settings().orbit.tolerance / relative_noise, least, 1.0) * test.noise;
+    return (test.singular ? of_determinant : of_others) * std::min(std::abs(low.value), std::abs(high.value));
 }
 
 std::optional<SpecialPoint> PointLocator::locate(std::size_t test, const TestValue& low, const TestValue& high) {

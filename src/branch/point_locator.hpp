@@ -30,7 +30,7 @@ public:
 private:
     using Bracket = std::pair<TestValue, TestValue>;
     std::vector<Bracket> brackets_of(std::size_t test, double before);
-    double share_of_noise() const;
+    double unknown_values(const BranchTest& test, const TestValue& low, const TestValue& high) const;
     void sample_first_step();
     std::optional<SpecialPoint> locate(std::size_t test, const TestValue& low, const TestValue& high);
     std::vector<SpecialPoint> locate_pair_of_crossings(std::size_t test, const std::vector<Bracket>& brackets);
