@@ -57,6 +57,28 @@ TimedBranch follow(const System& system, const Orbit& orbit, const BranchSetting
     return result;
 }
 
+/// A branch with the usual steps and with long ones.
+struct GrazeBranches {
+    TimedBranch usual, long_steps;
+};
+constexpr double long_step = 0.4; // eight times the usual largest step, in scaled unknowns
+
+/// Follows a branch with both, and keeps the least times of some repetitions.
+GrazeBranches follow_both(const System& system, const Orbit& orbit, BranchSettings settings, double budget,
+                          int repetitions) {
+    GrazeBranches result;
+    for (TimedBranch* const branch : {&result.usual, &result.long_steps}) {
+        double least = std::numeric_limits<double>::infinity();
+        for (int repetition = 0; repetition < repetitions; ++repetition) {
+            *branch = follow(system, orbit, settings, budget);
+            least = std::min(least, branch->seconds);
+        }
+        branch->seconds = least;
+        settings.continuation.largest_step = long_step;
+    }
+    return result;
+}
+
 Orbit settled(const Model& model, std::size_t cycles = 4000) {
     AttractorOptions settle;
     settle.section = "phase0";
@@ -108,6 +130,21 @@ void print_row(const char* who, std::size_t points, double milliseconds, double 
     std::fflush(stdout);
 }
 
+/// @param located, by_long_steps the special points of both
+void print_rows(const GrazeBranches& branches, const std::string& located, const std::string& by_long_steps) {
+    for (const auto& [name, branch, text] :
+         {std::tuple{"graze, 1e-13", &branches.usual, &located},
+          std::tuple{"graze, 1e-13, steps up to 0.4", &branches.long_steps, &by_long_steps}})
+        print_row(name, branch->points.size(), branch->milliseconds_per_point(), branch->points.front().parameter,
+                  branch->points.back().parameter, *text);
+}
+
+/// Prints how much longer AUTO takes for the whole stretch.
+void print_ratio(const GrazeBranches& branches, const char* name, double seconds) {
+    std::printf("\n%s takes %.2g times graze's time for the whole, %.2g times that with long steps.\n", name,
+                seconds / branches.usual.seconds, seconds / branches.long_steps.seconds);
+}
+
 void print_head(const std::string& title, const char* parameter, const char* located) {
     std::printf("\n%s\n\n| | points | ms a point | s in all | %s | %s |\n|---|---|---|---|---|---|\n", title.c_str(),
                 parameter, located);
@@ -129,6 +166,8 @@ struct Fineness {
 constexpr std::array fineness = {Fineness{"AUTO, 20 x 4, EPS 1e-7", 20, 1e-7},
                                  Fineness{"AUTO, 20 x 4, EPS 1e-9", 20, 1e-9},
                                  Fineness{"AUTO, 100 x 4, EPS 1e-9", 100, 1e-9}};
+
+constexpr const Fineness& usual_fineness = fineness[1];
 
 /// Writes the start orbit of AUTO: its two segments in parallel, each scaled to unit time.
 void write_start(const Model& model, const Orbit& orbit) {
@@ -214,17 +253,20 @@ void compare_microactuator(bool quick) {
     }
 }
 
-void compare_resting() {
+void compare_resting(bool quick) {
     Model model = microactuator(0.1);
     BranchSettings settings;
     settings.greatest = 0.65;
     settings.least = 0.05;
     const System system(model);
-    const TimedBranch branch = follow(system, settled(model), settings, 60);
+    const GrazeBranches branches = follow_both(system, settled(model), settings, 60, quick ? 1 : 5);
+    const TimedBranch &branch = branches.usual, &longer = branches.long_steps;
     const std::vector<double> flips = branch.located(PointType::flip), folds = branch.located(PointType::fold);
     print_head("The microactuator without impacts in V, with multipliers", "V", "flips; folds (digits)");
-    print_row("graze, 1e-13", branch.points.size(), branch.milliseconds_per_point(), branch.points.front().parameter,
-              branch.points.back().parameter, list_of(flips) + "; " + list_of(folds));
+    print_rows(branches, list_of(flips) + "; " + list_of(folds),
+               with_digits(longer.located(PointType::flip), flips) + "; " +
+                   with_digits(longer.located(PointType::fold), folds));
+    double seconds = 0;
     for (const Fineness& one : fineness) {
         const AutoRun run = run_auto({.problem = "resting",
                                       .constants = "IPS= 2, IRS= 0, ISP= 2, NBC= 0, NINT= 0\n"
@@ -235,7 +277,10 @@ void compare_resting() {
                                       .accuracy = one.accuracy});
         print_row(one.name, run.points.size(), run.milliseconds_per_point(), first_of(run), last_of(run),
                   with_digits(run.located(flip_of_auto), flips) + "; " + with_digits(run.located(fold_of_auto), folds));
+        if (one.name == usual_fineness.name)
+            seconds = run.seconds;
     }
+    print_ratio(branches, usual_fineness.name, seconds);
 }
 
 /// Runs AUTO's curve through the first point of a type on the branch in V, over the frequency.
@@ -321,15 +366,10 @@ void compare_curves(bool quick) {
         along.greatest = 1.5;
         along.free = {voltage};
         along.kept = *point;
-        TimedBranch curve;
-        double seconds = std::numeric_limits<double>::infinity();
-        for (int repeat = 0; repeat < (quick ? 1 : 5); ++repeat) {
-            curve = follow(system, point->solution.orbit, along, 60);
-            seconds = std::min(seconds, curve.seconds);
-        }
-        curve.seconds = seconds;
-        print_row("graze, 1e-13", curve.points.size(), curve.milliseconds_per_point(), curve.points.front().parameter,
-                  curve.points.back().parameter, "-");
+        const GrazeBranches curves = follow_both(system, point->solution.orbit, along, 60, quick ? 1 : 5);
+        const TimedBranch& curve = curves.usual;
+        print_rows(curves, "-", "-");
+        double seconds = 0;
         for (const Fineness& one : fineness) {
             const AutoRun run = curve_of_auto(one, type_of_auto);
             const double agreed = digits_of(run, system, *point, curve, voltage, frequency);
@@ -339,7 +379,10 @@ void compare_curves(bool quick) {
             std::snprintf(text, sizeof text, "%.1f at least; %.2g times graze's time a point", agreed,
                           run.milliseconds_per_point() / curve.milliseconds_per_point());
             print_row(one.name, run.points.size(), run.milliseconds_per_point(), first_of(run), last_of(run), text);
+            if (one.name == usual_fineness.name)
+                seconds = run.seconds;
         }
+        print_ratio(curves, usual_fineness.name, seconds);
     }
 }
 
@@ -353,12 +396,12 @@ void compare_chain(std::size_t oscillators, bool quick) {
     settings.greatest = last_force;
     settings.steps = quick ? 40 : 2000;
     const System system(model);
-    const TimedBranch branch = follow(system, settled(model), settings, quick ? 2 : 20);
-    const std::vector<double> folds = branch.located(PointType::fold);
+    const GrazeBranches branches = follow_both(system, settled(model), settings, quick ? 2 : 20, quick ? 1 : 3);
+    const std::vector<double> folds = branches.usual.located(PointType::fold);
     print_head("The chain of " + std::to_string(oscillators) + " without contacts in F, with multipliers", "F",
                "folds (digits)");
-    print_row("graze, 1e-13", branch.points.size(), branch.milliseconds_per_point(), branch.points.front().parameter,
-              branch.points.back().parameter, list_of(folds));
+    print_rows(branches, list_of(folds), with_digits(branches.long_steps.located(PointType::fold), folds));
+    double seconds = 0;
     for (const Fineness& one : fineness) {
         if (quick && one.intervals > 20)
             continue;
@@ -373,14 +416,17 @@ void compare_chain(std::size_t oscillators, bool quick) {
                                       .largest_step = 0.5});
         print_row(one.name, run.points.size(), run.milliseconds_per_point(), first_of(run), last_of(run),
                   with_digits(run.located(fold_of_auto), folds));
+        if (one.name == usual_fineness.name)
+            seconds = run.seconds;
     }
+    print_ratio(branches, usual_fineness.name, seconds);
 }
 
 } // namespace
 
 void compare_branches(bool quick) {
     compare_microactuator(quick);
-    compare_resting();
+    compare_resting(quick);
     compare_curves(quick);
     for (const std::size_t oscillators : quick ? std::vector<std::size_t>{5} : std::vector<std::size_t>{5, 10, 20})
         compare_chain(oscillators, quick);
