@@ -1,6 +1,7 @@
 #include "tape/kernel_program.hpp"
 
 #include <algorithm>
+#include <unordered_map>
 #include <utility>
 
 namespace graze {
@@ -24,17 +25,62 @@ KernelProgram::KernelProgram(const StepFinder& finder, const KernelTable& table,
     std::vector<Segment> segments;
     for (int k = 0; k <= std::min(order, 1); ++k)
         segments.push_back({finder.steps(k), k, k == 0});
-    if (order > 1)
-        (sequence == Sequence::by_order ? add_by_order : add_by_instruction)(finder, order, segments);
+    if (order > 1 && sequence == Sequence::by_order)
+        add_by_order(finder, order, table.width == 1, segments);
+    else if (order > 1)
+        add_by_instruction(finder, order, segments);
     find_operands(segments);
     find_chains(segments, table);
 }
 
-void KernelProgram::add_by_order(const StepFinder& finder, int order, std::vector<Segment>& segments) {
+/// @param scheduled whether to look for a sequence that takes less time
+void KernelProgram::add_by_order(const StepFinder& finder, int order, bool scheduled, std::vector<Segment>& segments) {
     segments.push_back({finder.before_all(), order, true});
-    for (int k = 2; k <= order; ++k)
-        segments.push_back({finder.steps(k), k, k == 2});
+    std::vector<ScheduledUnit> units;
+    if (scheduled) {
+        const std::vector<KernelStep> steps = finder.steps(2);
+        std::vector<bool> is_state;
+        for (const KernelStep& step : steps)
+            is_state.push_back(finder.is_state(step));
+        units = schedule_of(steps, is_state);
+    }
+    if (units.empty())
+        for (int k = 2; k <= order; ++k)
+            segments.push_back({finder.steps(k), k, k == 2});
+    else
+        add_rounds(finder, order, units, segments);
     segments.push_back({finder.after_all(), order, true});
+}
+
+/// Adds rounds in which each unit is computed once, at an order that is behind by its lag.
+void KernelProgram::add_rounds(const StepFinder& finder, int order, const std::vector<ScheduledUnit>& units,
+                               std::vector<Segment>& segments) {
+    std::unordered_map<const double*, std::size_t> unit_of;
+    const std::vector<KernelStep> all = finder.steps(2); // polynomials have fewer orders
+    int most_lag = 0;
+    for (std::size_t u = 0; u < units.size(); ++u) {
+        most_lag = std::max(most_lag, units[u].lag);
+        for (std::size_t i = units[u].first; i < units[u].end; ++i)
+            unit_of[all[i].operands.result] = u;
+    }
+    using StepsOfUnits = std::vector<std::vector<KernelStep>>;
+    std::vector<StepsOfUnits> steps(static_cast<std::size_t>(order) + 1, StepsOfUnits(units.size()));
+    for (int k = 2; k <= order; ++k)
+        for (const KernelStep& step : finder.steps(k))
+            steps[static_cast<std::size_t>(k)][unit_of.at(step.operands.result)].push_back(step);
+    for (int round = 2; round <= order + most_lag; ++round) {
+        Segment segment{{}, round, round == 2};
+        for (std::size_t u = 0; u < units.size(); ++u) {
+            const int k = round - units[u].lag;
+            if (k < 2 || k > order)
+                continue;
+            for (const KernelStep& step : steps[static_cast<std::size_t>(k)][u]) {
+                segment.steps.push_back(step);
+                segment.orders.push_back(k);
+            }
+        }
+        segments.push_back(std::move(segment));
+    }
 }
 
 void KernelProgram::add_by_instruction(const StepFinder& finder, int order, std::vector<Segment>& segments) {
@@ -63,28 +109,37 @@ void KernelProgram::find_operands(std::vector<Segment>& segments) {
 void KernelProgram::find_chains(const std::vector<Segment>& segments, const KernelTable& table) {
     std::size_t most = 0;
     for (const Segment& segment : segments)
-        most += 2 * segment.steps.size() + 3;
+        most += 4 * segment.steps.size() + 3;
     kernels_.reserve(most); // chains point to them
     std::size_t length = 0; // of the current chain
+    Order order = 0;        // that the next kernel receives
     for (const Segment& segment : segments) {
         const KernelOperands* operands = operands_.data() + segment.operands;
         if (!segment.begins && length > 0 && length + segment.steps.size() < longest_chain) {
             kernels_.push_back({.kernel = table.next_order});
             kernels_.push_back({.operands = operands});
+            ++order;
         } else {
             length = longest_chain;
         }
-        for (const KernelStep& step : segment.steps) {
-            if (step.kernel && length == longest_chain) {
+        for (std::size_t i = 0; i < segment.steps.size(); ++i, ++operands) {
+            const KernelStep& step = segment.steps[i];
+            if (step.kernel == nullptr)
+                continue;
+            const Order needed = segment.orders.empty() ? segment.order : segment.orders[i];
+            if (length == longest_chain) {
                 kernels_.push_back({.kernel = end_of_chain});
-                chains_.push_back({kernels_.data() + kernels_.size(), operands, segment.order});
+                chains_.push_back({kernels_.data() + kernels_.size(), operands, needed});
+                order = needed;
                 length = 0;
             }
-            if (step.kernel) {
-                kernels_.push_back({.kernel = step.kernel});
-                ++length;
+            if (step.reads_order && order != needed) {
+                kernels_.push_back({.kernel = table.shift_order});
+                kernels_.push_back({.shift = needed - order});
+                order = needed;
             }
-            ++operands;
+            kernels_.push_back({.kernel = step.kernel});
+            ++length;
         }
         if (segment.order <= 1)
             beginning_ = chains_.size();

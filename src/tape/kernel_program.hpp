@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tape/order_schedule.hpp"
 #include "tape/step_finder.hpp"
 
 #include <cstddef>
@@ -29,18 +30,22 @@ private:
         const KernelOperands* operands;
         Order order;
     };
-    /// The steps of one order; `operands` is the index of operands shared with the same steps of the order before.
+    /// The steps of one order, or of one round of several orders; `operands` is the index of operands shared with the
+    /// same steps of the segment before.
     struct Segment {
         std::vector<KernelStep> steps;
         Order order;
         bool begins; ///< starts a new chain
         std::size_t operands = 0;
+        std::vector<Order> orders = {}; ///< of each step, unless all are of `order`
     };
     static void run(std::span<const Chain> chains) {
         for (const Chain& chain : chains)
             chain.link->kernel(chain.operands, chain.link + 1, chain.order);
     }
-    static void add_by_order(const StepFinder& finder, int order, std::vector<Segment>& segments);
+    static void add_by_order(const StepFinder& finder, int order, bool scheduled, std::vector<Segment>& segments);
+    static void add_rounds(const StepFinder& finder, int order, const std::vector<ScheduledUnit>& units,
+                           std::vector<Segment>& segments);
     static void add_by_instruction(const StepFinder& finder, int order, std::vector<Segment>& segments);
     void find_operands(std::vector<Segment>& segments);
     void find_chains(const std::vector<Segment>& segments, const KernelTable& table);

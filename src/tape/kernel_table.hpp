@@ -42,6 +42,7 @@ using Kernel = void (*)(const KernelOperands* operands, const KernelLink* next, 
 union KernelLink {
     Kernel kernel;
     const KernelOperands* operands; ///< follows the link of `KernelTable::next_order`
+    Order shift;                    ///< follows the link of `KernelTable::shift_order`
 };
 
 enum class GuardKind : unsigned char { other, exponential, hyperbolic_tangent, power };
@@ -200,8 +201,9 @@ struct KernelTable {
     Kernel whole_product, whole_reciprocal;
     /// Continues with the next order and the operands in the following link.
     Kernel next_order;
+    /// Adds the shift in the following link to the order.
+    Kernel shift_order;
     // Two steps in one; null where there is no such kernel.
-    Kernel two_states;
     /// An operation, followed by a multiple of its result.
     Kernel with_multiple[series_operation_count][highest_order + 1];
     /// A linear combination of two terms, followed by its quotient by a series.

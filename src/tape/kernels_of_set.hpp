@@ -34,6 +34,10 @@ inline void next_order(const KernelOperands*, const KernelLink* next, Order orde
     return go_on(next->operands, next + 1, order + 1);
 }
 
+inline void shift_order(const KernelOperands* operands, const KernelLink* next, Order order) {
+    return go_on(operands, next + 1, order + next->shift);
+}
+
 template <class Family, int... k>
 constexpr void fill(Kernel (&row)[highest_order + 1], Indices<k...>) {
     ((row[k] = &chained<&Family::template run<k>>), ...);
@@ -90,7 +94,6 @@ constexpr void fill_twos(KernelTable& table) {
     table.whole_product = &chained<&whole_product<>>;
     table.whole_reciprocal = &chained<&whole_reciprocal<>>;
 #endif
-    table.two_states = &chained_two<&two_states<double>>;
     fill_with_multiple<Multiply<double>>(table, SeriesOperation::multiply);
     fill_with_multiple<Divide<double>>(table, SeriesOperation::divide);
     fill_with_multiple<Square<double>>(table, SeriesOperation::square);
@@ -135,6 +138,7 @@ constexpr KernelTable make_table() {
     table.whole_hyperbolic_pair = &chained<&whole_pair<V, false>>;
     table.whole_exponential = &chained<&whole_exponential<V>>;
     table.next_order = &next_order;
+    table.shift_order = &shift_order;
     if constexpr (std::is_same_v<V, double>)
         fill_twos(table);
     table.literal = &literal<V>;

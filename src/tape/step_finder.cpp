@@ -112,12 +112,7 @@ void StepFinder::add_states(int order, std::vector<KernelStep>& steps) const {
             continue;
         const std::uint32_t combination = combination_of_[rate.index];
         if (combination == none) {
-            Kernel kernel = table_.state;
-            if (table_.two_states && !steps.empty() && steps.back().kernel == table_.state) {
-                steps.back().kernel = table_.two_states;
-                kernel = nullptr;
-            }
-            steps.push_back({kernel, {register_at(i), register_at(rate.index), {}, {}, {}, {}}});
+            steps.push_back({table_.state, {register_at(i), register_at(rate.index), {}, {}, {}, {}}});
             continue;
         }
         combinations.push_back(combination_step(code_[combination], order == 1
@@ -149,13 +144,14 @@ void StepFinder::add_instructions(int order, std::size_t first, std::size_t behi
             continue;
         }
         const Kernel joint = order > 0 && i > first && !steps.empty() ? joint_kernel(i, order, steps.back()) : nullptr;
-        if (joint)
+        if (joint) {
             steps.back().kernel = joint;
-        else if (instruction.operation == SeriesOperation::linear_combination)
+            steps.back().reads_order = false;
+        } else if (instruction.operation == SeriesOperation::linear_combination)
             step = combination_step(instruction, order == 0 ? &CombinationKernels::combination_value
                                                             : &CombinationKernels::combination);
         else
-            step.kernel = kernel_of(instruction, order, step.operands);
+            step = series_step(instruction, order, step.operands);
         steps.push_back(step);
     }
 }
@@ -316,24 +312,26 @@ KernelStep StepFinder::combination_step(const Instruction& instruction, Combinat
     return {(table_.combinations.*row)[count], combination_operands(instruction)};
 }
 
-Kernel StepFinder::kernel_of(const Instruction& instruction, int order, KernelOperands& operands) const {
+KernelStep StepFinder::series_step(const Instruction& instruction, int order, KernelOperands operands) const {
     switch (instruction.operation) {
     case SeriesOperation::multiply:
         if (order > 0 && std::min(tape_.degrees[instruction.left], tape_.degrees[instruction.right]) <= 1) {
             if (tape_.degrees[instruction.left] > 1)
                 operands = {operands.result, operands.right, operands.left, {}, {}, {}};
-            return table_.multiply_linear;
+            return {table_.multiply_linear, operands};
         }
         break;
     default:
         if (const Recurrence recurrence = recurrence_of(instruction.operation);
             order > 0 && is_product(recurrence) && tape_.degrees[instruction.third] <= 1)
-            return recurrence == Recurrence::product ? table_.function_of_linear : table_.minus_function_of_linear;
+            return {recurrence == Recurrence::product ? table_.function_of_linear : table_.minus_function_of_linear,
+                    operands};
         break;
     }
     const auto row = static_cast<int>(instruction.operation);
     const bool last = static_cast<std::uint32_t>(order) == std::min(layout_.order, tape_.degrees[instruction.result]);
-    return last && table_.closing[row][order] ? table_.closing[row][order] : table_.series[row][order];
+    return {last && table_.closing[row][order] ? table_.closing[row][order] : table_.series[row][order], operands,
+            false};
 }
 
 } // namespace graze

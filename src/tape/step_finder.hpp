@@ -21,6 +21,7 @@ struct JetLayout {
 struct KernelStep {
     Kernel kernel;
     KernelOperands operands;
+    bool reads_order = true; ///< whether the kernel serves several orders
 };
 
 /// Chooses kernels and operands for the steps of each order, starting with orders 0 and 1. Some series are computed for
@@ -36,6 +37,7 @@ public:
                const std::vector<TermOperands>& terms);
 
     std::vector<KernelStep> steps(int order) const;
+    bool is_state(const KernelStep& step) const { return step.operands.result < register_at(tape_.states); }
     std::vector<KernelStep> before_all() const;
     std::vector<KernelStep> after_all() const;
 
@@ -80,7 +82,7 @@ private:
     using CombinationRow = Kernel (CombinationKernels::*)[combination_kernels];
     KernelStep combination_step(const Instruction& instruction, CombinationRow row) const;
     /// May exchange operands where the kernel needs them in a certain order.
-    Kernel kernel_of(const Instruction& instruction, int order, KernelOperands& operands) const;
+    KernelStep series_step(const Instruction& instruction, int order, KernelOperands operands) const;
 
     const Tape& tape_;
     const std::vector<Instruction>& code_;
