@@ -1,7 +1,6 @@
 #include "tape/kernel_program.hpp"
 
 #include <algorithm>
-#include <unordered_map>
 #include <utility>
 
 namespace graze {
@@ -37,8 +36,8 @@ KernelProgram::KernelProgram(const StepFinder& finder, const KernelTable& table,
 void KernelProgram::add_by_order(const StepFinder& finder, int order, bool scheduled, std::vector<Segment>& segments) {
     segments.push_back({finder.before_all(), order, true});
     std::vector<ScheduledUnit> units;
+    const std::vector<KernelStep> steps = finder.steps(2);
     if (scheduled) {
-        const std::vector<KernelStep> steps = finder.steps(2);
         std::vector<bool> is_state;
         for (const KernelStep& step : steps)
             is_state.push_back(finder.is_state(step));
@@ -48,36 +47,40 @@ void KernelProgram::add_by_order(const StepFinder& finder, int order, bool sched
         for (int k = 2; k <= order; ++k)
             segments.push_back({finder.steps(k), k, k == 2});
     else
-        add_rounds(finder, order, units, segments);
+        add_rounds(finder, order, steps, units, segments);
     segments.push_back({finder.after_all(), order, true});
 }
 
 /// Adds rounds in which each unit is computed once, at an order that is behind by its lag.
-void KernelProgram::add_rounds(const StepFinder& finder, int order, const std::vector<ScheduledUnit>& units,
-                               std::vector<Segment>& segments) {
-    std::unordered_map<const double*, std::size_t> unit_of;
-    const std::vector<KernelStep> all = finder.steps(2); // polynomials have fewer orders
-    int most_lag = 0;
-    for (std::size_t u = 0; u < units.size(); ++u) {
-        most_lag = std::max(most_lag, units[u].lag);
-        for (std::size_t i = units[u].first; i < units[u].end; ++i)
-            unit_of[all[i].operands.result] = u;
-    }
-    using StepsOfUnits = std::vector<std::vector<KernelStep>>;
-    std::vector<StepsOfUnits> steps(static_cast<std::size_t>(order) + 1, StepsOfUnits(units.size()));
+/// @param all the steps of order 2, to which the units refer
+void KernelProgram::add_rounds(const StepFinder& finder, int order, const std::vector<KernelStep>& all,
+                               const std::vector<ScheduledUnit>& units, std::vector<Segment>& segments) {
+    std::vector<std::vector<KernelStep>> steps; // of each order from 2 on
     for (int k = 2; k <= order; ++k)
-        for (const KernelStep& step : finder.steps(k))
-            steps[static_cast<std::size_t>(k)][unit_of.at(step.operands.result)].push_back(step);
+        steps.push_back(finder.steps(k));
+    // Polynomials have no steps of higher orders.
+    const auto find = [&](int k, std::size_t index) -> const KernelStep* {
+        const std::vector<KernelStep>& of_order = steps[static_cast<std::size_t>(k - 2)];
+        if (of_order.size() == all.size())
+            return &of_order[index];
+        const auto found = std::ranges::find(of_order, all[index].operands.result,
+                                             [](const KernelStep& step) { return step.operands.result; });
+        return found != of_order.end() ? &*found : nullptr;
+    };
+    const int most_lag = std::ranges::max(units, {}, &ScheduledUnit::lag).lag;
     for (int round = 2; round <= order + most_lag; ++round) {
         Segment segment{{}, round, round == 2};
-        for (std::size_t u = 0; u < units.size(); ++u) {
-            const int k = round - units[u].lag;
+        segment.steps.reserve(all.size());
+        segment.orders.reserve(all.size());
+        for (const ScheduledUnit& unit : units) {
+            const int k = round - unit.lag;
             if (k < 2 || k > order)
                 continue;
-            for (const KernelStep& step : steps[static_cast<std::size_t>(k)][u]) {
-                segment.steps.push_back(step);
-                segment.orders.push_back(k);
-            }
+            for (std::size_t i = unit.first; i < unit.end; ++i)
+                if (const KernelStep* step = find(k, i)) {
+                    segment.steps.push_back(*step);
+                    segment.orders.push_back(k);
+                }
         }
         segments.push_back(std::move(segment));
     }

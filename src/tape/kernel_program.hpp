@@ -44,8 +44,8 @@ private:
             chain.link->kernel(chain.operands, chain.link + 1, chain.order);
     }
     static void add_by_order(const StepFinder& finder, int order, bool scheduled, std::vector<Segment>& segments);
-    static void add_rounds(const StepFinder& finder, int order, const std::vector<ScheduledUnit>& units,
-                           std::vector<Segment>& segments);
+    static void add_rounds(const StepFinder& finder, int order, const std::vector<KernelStep>& all,
+                           const std::vector<ScheduledUnit>& units, std::vector<Segment>& segments);
     static void add_by_instruction(const StepFinder& finder, int order, std::vector<Segment>& segments);
     void find_operands(std::vector<Segment>& segments);
     void find_chains(const std::vector<Segment>& segments, const KernelTable& table);

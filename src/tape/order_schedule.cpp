@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <optional>
-#include <unordered_map>
+#include <utility>
 
 namespace graze {
 
@@ -34,10 +34,11 @@ std::vector<ScheduledUnit> units_of(std::span<const KernelStep> steps) {
 
 std::vector<Dependence> dependences_of(std::span<const KernelStep> steps, const std::vector<bool>& is_state,
                                        const std::vector<ScheduledUnit>& units) {
-    std::unordered_map<const double*, std::size_t> unit_of;
+    std::vector<std::pair<const double*, std::size_t>> unit_of; // by the series that it computes
     for (std::size_t u = 0; u < units.size(); ++u)
         for (std::size_t i = units[u].first; i < units[u].end; ++i)
-            unit_of[steps[i].operands.result] = u;
+            unit_of.emplace_back(steps[i].operands.result, u);
+    std::ranges::sort(unit_of);
     const auto latency_of = [&](const ScheduledUnit& unit) {
         const bool is_sum = unit.end == unit.first + 1 && steps[unit.first].operands.terms != nullptr;
         return is_state[unit.first] ? latency_of_state : is_sum ? latency_of_combination : latency_of_product;
@@ -46,9 +47,10 @@ std::vector<Dependence> dependences_of(std::span<const KernelStep> steps, const 
     for (std::size_t u = 0; u < units.size(); ++u)
         for (std::size_t i = units[u].first; i < units[u].end; ++i) {
             const auto add = [&](const double* series) {
-                const auto found = unit_of.find(series);
+                const auto found =
+                    std::ranges::lower_bound(unit_of, series, {}, [](const auto& one) { return one.first; });
                 // In the given sequence, the result of a later step is known only up to the order before.
-                if (found != unit_of.end() && found->second != u)
+                if (found != unit_of.end() && found->first == series && found->second != u)
                     dependences.push_back(
                         {found->second, u, latency_of(units[found->second]), is_state[i] || found->second > u});
             };
