@@ -25,24 +25,20 @@ KernelProgram::KernelProgram(const StepFinder& finder, const KernelTable& table,
     for (int k = 0; k <= std::min(order, 1); ++k)
         segments.push_back({finder.steps(k), k, k == 0});
     if (order > 1 && sequence == Sequence::by_order)
-        add_by_order(finder, order, table.width == 1, segments);
+        add_by_order(finder, order, segments);
     else if (order > 1)
         add_by_instruction(finder, order, segments);
     find_operands(segments);
     find_chains(segments, table);
 }
 
-/// @param scheduled whether to look for a sequence that takes less time
-void KernelProgram::add_by_order(const StepFinder& finder, int order, bool scheduled, std::vector<Segment>& segments) {
+void KernelProgram::add_by_order(const StepFinder& finder, int order, std::vector<Segment>& segments) {
     segments.push_back({finder.before_all(), order, true});
-    std::vector<ScheduledUnit> units;
     const std::vector<KernelStep> steps = finder.steps(2);
-    if (scheduled) {
-        std::vector<bool> is_state;
-        for (const KernelStep& step : steps)
-            is_state.push_back(finder.is_state(step));
-        units = schedule_of(steps, is_state);
-    }
+    std::vector<bool> is_state;
+    for (const KernelStep& step : steps)
+        is_state.push_back(finder.is_state(step));
+    const std::vector<ScheduledUnit> units = schedule_of(steps, is_state);
     if (units.empty())
         for (int k = 2; k <= order; ++k)
             segments.push_back({finder.steps(k), k, k == 2});

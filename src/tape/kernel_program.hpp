@@ -43,7 +43,7 @@ private:
         for (const Chain& chain : chains)
             chain.link->kernel(chain.operands, chain.link + 1, chain.order);
     }
-    static void add_by_order(const StepFinder& finder, int order, bool scheduled, std::vector<Segment>& segments);
+    static void add_by_order(const StepFinder& finder, int order, std::vector<Segment>& segments);
     static void add_rounds(const StepFinder& finder, int order, const std::vector<KernelStep>& all,
                            const std::vector<ScheduledUnit>& units, std::vector<Segment>& segments);
     static void add_by_instruction(const StepFinder& finder, int order, std::vector<Segment>& segments);
