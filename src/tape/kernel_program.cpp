@@ -34,7 +34,7 @@ KernelProgram::KernelProgram(const StepFinder& finder, const KernelTable& table,
 
 void KernelProgram::add_by_order(const StepFinder& finder, int order, std::vector<Segment>& segments) {
     segments.push_back({finder.before_all(), order, true});
-    const std::vector<KernelStep> steps = finder.steps(2);
+    const std::vector<KernelStep> steps = finder.steps(2, false); // each state is scheduled by itself
     std::vector<bool> is_state;
     for (const KernelStep& step : steps)
         is_state.push_back(finder.is_state(step));
@@ -53,7 +53,7 @@ void KernelProgram::add_rounds(const StepFinder& finder, int order, const std::v
                                const std::vector<ScheduledUnit>& units, std::vector<Segment>& segments) {
     std::vector<std::vector<KernelStep>> steps; // of each order from 2 on
     for (int k = 2; k <= order; ++k)
-        steps.push_back(finder.steps(k));
+        steps.push_back(finder.steps(k, false));
     // Polynomials have no steps of higher orders.
     const auto find = [&](int k, std::size_t index) -> const KernelStep* {
         const std::vector<KernelStep>& of_order = steps[static_cast<std::size_t>(k - 2)];

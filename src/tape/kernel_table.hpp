@@ -204,6 +204,7 @@ struct KernelTable {
     /// Adds the shift in the following link to the order.
     Kernel shift_order;
     // Two steps in one; null where there is no such kernel.
+    Kernel two_states;
     /// An operation, followed by a multiple of its result.
     Kernel with_multiple[series_operation_count][highest_order + 1];
     /// A linear combination of two terms, followed by its quotient by a series.

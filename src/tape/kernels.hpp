@@ -503,6 +503,13 @@ GRAZE_INLINE void state(const KernelOperands& o, Order k) {
 
 // Two steps that often follow one another. Their operands are adjacent.
 
+template <class V>
+GRAZE_INLINE void two_states(const KernelOperands* operands, Order k) {
+    const V one = at<V>(operands[0].left, k - 1), other = at<V>(operands[1].left, k - 1);
+    put(operands[0].result, k, one * inverse.of[k]);
+    put(operands[1].result, k, other * inverse.of[k]);
+}
+
 /// An operation, and a linear combination of its result alone.
 template <class V, class Family>
 struct WithMultiple {

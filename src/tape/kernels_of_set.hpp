@@ -94,6 +94,7 @@ constexpr void fill_twos(KernelTable& table) {
     table.whole_product = &chained<&whole_product<>>;
     table.whole_reciprocal = &chained<&whole_reciprocal<>>;
 #endif
+    table.two_states = &chained_two<&two_states<double>>;
     fill_with_multiple<Multiply<double>>(table, SeriesOperation::multiply);
     fill_with_multiple<Divide<double>>(table, SeriesOperation::divide);
     fill_with_multiple<Square<double>>(table, SeriesOperation::square);

@@ -9,8 +9,8 @@ namespace graze {
 
 namespace {
 
-/// Longer programs have enough independent steps in each order.
-constexpr std::size_t most_units = 48;
+/// Longer programs have enough independent steps in each order: a chain of five oscillators gained nothing.
+constexpr std::size_t most_units = 16;
 
 /// Processor cycles from operands in memory to the result in memory. Only their ratios matter.
 constexpr int latency_of_state = 14, latency_of_combination = 11, latency_of_product = 20;

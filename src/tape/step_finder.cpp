@@ -67,10 +67,10 @@ StepFinder::StepFinder(const Tape& tape, std::size_t part, const KernelTable& ta
     find_times(uses);
 }
 
-std::vector<KernelStep> StepFinder::steps(int order) const {
+std::vector<KernelStep> StepFinder::steps(int order, bool joins_states) const {
     std::vector<KernelStep> steps;
     if (order > 0 && has_states_)
-        add_states(order, steps);
+        add_states(order, joins_states, steps);
     add_instructions(order, steps);
     return steps;
 }
@@ -104,7 +104,7 @@ void StepFinder::find_private_rates(const std::vector<std::uint32_t>& uses) {
     }
 }
 
-void StepFinder::add_states(int order, std::vector<KernelStep>& steps) const {
+void StepFinder::add_states(int order, bool joins_states, std::vector<KernelStep>& steps) const {
     std::vector<KernelStep> combinations; // added last, so that the other kernels are adjacent
     for (std::uint32_t i = 0; i < tape_.states; ++i) {
         const Tape::Location& rate = tape_.rates[i];
@@ -112,7 +112,12 @@ void StepFinder::add_states(int order, std::vector<KernelStep>& steps) const {
             continue;
         const std::uint32_t combination = combination_of_[rate.index];
         if (combination == none) {
-            steps.push_back({table_.state, {register_at(i), register_at(rate.index), {}, {}, {}, {}}});
+            Kernel kernel = table_.state;
+            if (joins_states && table_.two_states && !steps.empty() && steps.back().kernel == table_.state) {
+                steps.back().kernel = table_.two_states;
+                kernel = nullptr;
+            }
+            steps.push_back({kernel, {register_at(i), register_at(rate.index), {}, {}, {}, {}}});
             continue;
         }
         combinations.push_back(combination_step(code_[combination], order == 1

@@ -36,7 +36,8 @@ public:
     StepFinder(const Tape& tape, std::size_t part, const KernelTable& table, const JetLayout& layout, double* memory,
                const std::vector<TermOperands>& terms);
 
-    std::vector<KernelStep> steps(int order) const;
+    /// @param joins_states whether one kernel may compute two states
+    std::vector<KernelStep> steps(int order, bool joins_states = true) const;
     bool is_state(const KernelStep& step) const { return step.operands.result < register_at(tape_.states); }
     std::vector<KernelStep> before_all() const;
     std::vector<KernelStep> after_all() const;
@@ -61,7 +62,7 @@ private:
     /// Linear combinations that are needed for the rate of one state only are computed with that state.
     void find_private_rates(const std::vector<std::uint32_t>& uses);
     void find_times(const std::vector<std::uint32_t>& uses);
-    void add_states(int order, std::vector<KernelStep>& steps) const;
+    void add_states(int order, bool joins_states, std::vector<KernelStep>& steps) const;
     void add_instructions(int order, std::vector<KernelStep>& steps) const;
     /// Adds the instructions first .. behind - 1.
     void add_instructions(int order, std::size_t first, std::size_t behind, std::uint32_t reciprocals,

@@ -66,7 +66,7 @@ TEST(OrderSchedule, KnowsOperandsBeforeTheirUse) {
     std::mt19937 random(7);
     for (int trial = 0; trial < 200; ++trial) {
         Program program;
-        const std::size_t states = 1 + random() % 4, products = 1 + random() % 20, all = states + products;
+        const std::size_t states = 1 + random() % 4, products = 1 + random() % 12, all = states + products;
         for (std::size_t i = 0; i < states; ++i)
             program.add(i, states + random() % products, random() % all, true);
         for (std::size_t i = states; i < all; ++i)
