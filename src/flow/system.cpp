@@ -3,6 +3,7 @@
 #include "flow/lie_derivative.hpp"
 #include "flow/section_function.hpp"
 #include "flow/uniformised_system.hpp"
+#include "flow/variations.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/symbolic/linearisation.hpp"
 #include "graze/symbolic/transform.hpp"
@@ -120,6 +121,7 @@ System::System(const Model& model) {
     modes_ = std::make_shared<const std::vector<CompiledMode>>(compiler.compile_modes());
     linear_ = std::make_shared<LinearModes>(modes_->size());
     uniformised_ = std::make_shared<Uniformised>();
+    variations_ = std::make_shared<Variations>();
     workspace_ = compiler.workspace();
     operations_ = compiler.operations();
     parts->model.freeze();

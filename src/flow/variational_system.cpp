@@ -2,6 +2,7 @@
 
 #include "flow/section_function.hpp"
 #include "flow/uniformised_system.hpp"
+#include "flow/variations.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 #include "graze/symbolic/transform.hpp"
@@ -10,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <mutex>
 #include <numeric>
 #include <set>
 #include <string>
@@ -119,7 +121,7 @@ System VariationalCompiler::modes() {
 
 } // namespace
 
-VariationalSystem::VariationalSystem(const System& system, std::vector<ParameterId> free) {
+VariationalSystem::VariationalSystem(const System& system, std::vector<ParameterId> free) : system_(system) {
     std::set<ParameterId> seen;
     for (const ParameterId parameter : free) {
         require_index(parameter.place(), system.parameters(), "independent parameter");
@@ -128,8 +130,17 @@ VariationalSystem::VariationalSystem(const System& system, std::vector<Parameter
                 fmt::format("parameter '{}' is free twice", system.model().independent_parameters()[parameter.place()]),
                 "name each free parameter once");
     }
+    System::Variations& variations = *system.variations_;
+    const std::scoped_lock lock(variations.filling);
+    std::shared_ptr<const Parts>& parts = variations.of[free];
+    if (!parts)
+        parts = std::make_shared<const Parts>(compiled(system, free));
+    parts_ = parts;
+}
+
+VariationalSystem::Parts VariationalSystem::compiled(const System& system, const std::vector<ParameterId>& free) {
     VariationalCompiler compiler(system, free);
-    Parts parts{system, compiler.modes(), std::move(free), {}, {}, {}, {}, 0};
+    Parts parts{compiler.modes(), free, {}, {}, {}, {}, 0};
     Model& model = compiler.model();
     for (const Event& event : model.events)
         parts.events.push_back(compiler.function_of(event.function));
@@ -144,7 +155,7 @@ VariationalSystem::VariationalSystem(const System& system, std::vector<Parameter
             functions.push_back(compiler.function_of(section_function(model, section, symmetry)));
     }
     parts.workspace = compiler.workspace();
-    parts_ = std::make_shared<const Parts>(std::move(parts));
+    return parts;
 }
 
 Function VariationalSystem::function_of(std::span<const Expression> expressions) const {

@@ -96,4 +96,17 @@ TEST(VariationalSystem, NewSymbolsDoNotCollideWithNamesOfTheModel) {
     EXPECT_THROW(system.function_of(std::vector{Graph::create()->symbol("along_3")}), InputError);
 }
 
+// The functions of one model and one list of free parameters are compiled once, whichever handle asks for them.
+TEST(VariationalSystem, IsSharedByAllHandlesOfASystem) {
+    const System system(model()), copy = system, observing = system.observing({});
+    const std::vector<ParameterId> free{ParameterId(1)}, both{ParameterId(0), ParameterId(1)};
+    const VariationalSystem first(system, free), other(system, both);
+    EXPECT_EQ(&VariationalSystem(system, free).event(0), &first.event(0));
+    EXPECT_EQ(&VariationalSystem(copy, free).modes().mode(0), &first.modes().mode(0));
+    EXPECT_EQ(&VariationalSystem(observing, free).event(0), &first.event(0));
+    EXPECT_NE(&other.event(0), &first.event(0));
+    EXPECT_EQ(other.variables(), 4U);
+    EXPECT_NE(&VariationalSystem(System(model()), free).event(0), &first.event(0));
+}
+
 } // namespace graze::variational_system_test

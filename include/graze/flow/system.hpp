@@ -179,6 +179,7 @@ public:
 
 private:
     friend class SystemCompiler;
+    friend class VariationalSystem;
     System with_tapes(std::vector<CompiledMode> modes, std::span<const Expression> observed) const;
     struct Parts {
         Model model;
@@ -194,9 +195,11 @@ private:
     std::shared_ptr<const Parts> parts_;
     struct LinearModes;
     struct Uniformised;
+    struct Variations; ///< see VariationalSystem
     std::shared_ptr<const std::vector<CompiledMode>> modes_;
     std::shared_ptr<LinearModes> linear_;      ///< variational equations of these modes
     std::shared_ptr<Uniformised> uniformised_; ///< of the model, whatever is observed
+    std::shared_ptr<Variations> variations_;   ///< of the model, whatever is observed
     std::vector<Expression> observed_;         ///< observed expressions, in a frozen graph
     std::size_t workspace_ = 0, operations_ = 0;
 };

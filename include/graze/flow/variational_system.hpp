@@ -16,7 +16,8 @@ namespace graze {
 /// A vector has one component for each *variable*: the states, then the free parameters. Second derivatives of a
 /// function h contracted with it are the derivatives of (h_x v_x + h_p v_p) at fixed v: one number for each variable.
 ///
-/// Compiled once and shared as a System: copies are handles to the same object, for any number of threads.
+/// Compiled once for a model and its free parameters, and kept with the System: all that are made from copies of it are
+/// handles to the same object, for any number of threads.
 class VariationalSystem {
 public:
     /// @param free independent parameters with respect to which derivatives are computed
@@ -24,7 +25,7 @@ public:
     explicit VariationalSystem(const System& system, std::vector<ParameterId> free = {});
 
     /// Returns the system from which this one was made.
-    const System& system() const { return parts_->system; }
+    const System& system() const { return system_; }
     const std::vector<ParameterId>& free() const { return parts_->free; }
     /// Returns the number of variables: states and free parameters.
     std::size_t variables() const { return system().states() + free().size(); }
@@ -57,13 +58,18 @@ public:
     std::size_t workspace() const { return parts_->workspace; }
 
 private:
+    friend class System;
+    /// Without the system itself, which keeps them.
     struct Parts {
-        System system, modes;
+        System modes;
         std::vector<ParameterId> free;
         std::vector<Function> events, jumps, symmetries;
         std::vector<std::vector<Function>> sections; ///< for each section: its function, then that under each symmetry
         std::size_t workspace = 0;
     };
+    static Parts compiled(const System& system, const std::vector<ParameterId>& free);
+
+    System system_;
     std::shared_ptr<const Parts> parts_;
 };
 
