@@ -10,6 +10,7 @@
 #include "graze/base/input_error.hpp"
 #include "orbit/cut.hpp"
 #include "orbit/newton.hpp"
+#include "orbit/orbit_flow.hpp"
 #include "orbit/shooting.hpp"
 #include "orbit/solve_homoclinic.hpp"
 
@@ -237,14 +238,27 @@ std::optional<double> BranchState::error_of(const Orbit& orbit, const OrbitDirec
     if (!tighter_) {
         tighter_.emplace(system(), std::vector<Probe>(), std::vector<Expression>(),
                          integration(0.01 * settings_.orbit.tolerance));
+        tighter_flow_.emplace(flow_of(*tighter_));
+    }
+    const auto size_of = [](OrbitProblem& problem, std::span<const double> step) {
+        const double error = vector_of(step).cwiseQuotient(vector_of(problem.scales())).cwiseAbs().maxCoeff();
+        return std::isfinite(error) ? std::optional(error) : std::nullopt;
+    };
+    // With the derivatives that are known, where these equations can be compared with another flow.
+    OrbitProblem& here = *problem_;
+    std::vector<double> step(here.unknowns());
+    if (here.has_chords()) {
+        if (!here.evaluate(here.unknowns_of(orbit)) ||
+            !here.correction_by(*tighter_flow_, here.row_of(here.unknowns_of(tangent)), step))
+            return std::nullopt;
+        return size_of(here, step);
     }
     OrbitProblem problem(*tighter_, orbit, settings_.parameter);
-    std::vector<double> step(problem.unknowns());
+    step.resize(problem.unknowns());
     if (!problem.evaluate(problem.unknowns_of(orbit)) ||
         !problem.solve(problem.row_of(problem.unknowns_of(tangent)), 0, false, step, nullptr))
         return std::nullopt;
-    const double error = vector_of(step).cwiseQuotient(vector_of(problem.scales())).cwiseAbs().maxCoeff();
-    return std::isfinite(error) ? std::optional(error) : std::nullopt;
+    return size_of(problem, step);
 }
 
 bool BranchState::is_in_family(const Orbit& orbit) {

@@ -120,6 +120,7 @@ private:
     BranchSettings settings_;
     Simulation simulation_;
     std::optional<Simulation> tighter_; ///< made when first needed
+    std::optional<ModeFlow> tighter_flow_;
     std::unique_ptr<OrbitMonitors> monitors_;
     /// One condition for each additional free parameter, those of the kept point last.
     std::vector<std::unique_ptr<OrbitCondition>> held_;

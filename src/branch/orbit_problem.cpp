@@ -118,4 +118,12 @@ bool OrbitProblem::chord(std::span<const double> u, std::span<const double> row,
     return true;
 }
 
+bool OrbitProblem::correction_by(ModeFlow& flow, std::span<const double> row, std::span<double> step) {
+    Eigen::VectorXd result;
+    if (!equations_->chord(at_, closed_by(row), at_.unknowns, Eigen::VectorXd::Zero(1), result, &flow))
+        return false;
+    entries_of(step) = result;
+    return true;
+}
+
 } // namespace graze

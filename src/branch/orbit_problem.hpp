@@ -68,6 +68,9 @@ public:
     bool has_chords() const override { return held_.empty() && equations_->has_chords(); }
     bool derivatives_are_expensive() const override { return equations_->derivatives_are_expensive(); }
     bool chord(std::span<const double> u, std::span<const double> row, std::span<double> step) override;
+    /// Computes the correction at the last evaluation that another flow of the modes makes, as one of a smaller
+    /// tolerance. Requires `has_chords`. @return false where it cannot follow the orbit
+    bool correction_by(ModeFlow& flow, std::span<const double> row, std::span<double> step);
     void accept(std::span<const double> u) override {
         // Scales need not be exact, so they are renewed only every few steps.
         constexpr std::size_t renewal = 5;

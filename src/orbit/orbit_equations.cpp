@@ -756,12 +756,14 @@ bool OrbitEquations::solve_nearest(const OrbitEvaluation& at, Eigen::VectorXd& s
 }
 
 bool OrbitEquations::chord(const OrbitEvaluation& at, const Closed& closed, const Eigen::VectorXd& unknowns,
-                           const Eigen::VectorXd& right, Eigen::VectorXd& step) {
+                           const Eigen::VectorXd& right, Eigen::VectorXd& step, ModeFlow* other) {
     std::vector<double> parameters;
     set_parameters(unknowns, parameters);
+    if (other)
+        other->set_parameters(parameters);
     Eigen::VectorXd blocks(index(layout_.start_of(layout_.pieces()))), outer;
     for (std::size_t k = 0; k < layout_.pieces(); ++k)
-        if (!set_right(k, unknowns, at, blocks))
+        if (!set_right(k, unknowns, at, blocks, other ? *other : flow_))
             return false;
     if (!blocks.allFinite() || !at.system.solve(closed.system, &blocks, right, outer))
         return false;
@@ -771,7 +773,7 @@ bool OrbitEquations::chord(const OrbitEvaluation& at, const Closed& closed, cons
 
 /// Sets the right-hand side of a piece's equations at other unknowns than those of the evaluation, in its units.
 bool OrbitEquations::set_right(std::size_t k, const Eigen::VectorXd& unknowns, const OrbitEvaluation& at,
-                               Eigen::VectorXd& right) {
+                               Eigen::VectorXd& right, ModeFlow& flow) {
     const std::size_t n = layout_.states(), place = layout_.start_of(k), segment = layout_.segment_of(k);
     const Eigen::Index duration = index(layout_.duration_of(k));
     std::vector<double> state(unknowns.data() + place, unknowns.data() + place + n);
@@ -785,7 +787,7 @@ bool OrbitEquations::set_right(std::size_t k, const Eigen::VectorXd& unknowns, c
             return false;
         state = numbers_of(left.state);
         condition = unknowns[duration] - left.time;
-    } else if (flow_.run(modes_[segment], state, unknowns[duration]) != ModeFlow::Ending::done) {
+    } else if (flow.run(modes_[segment], state, unknowns[duration]) != ModeFlow::Ending::done) {
         return false;
     }
     if (layout_.has_end(k)) {

@@ -101,8 +101,9 @@ public:
     /// Solves for a chord step (simplified Newton): residuals at other unknowns, derivatives of the evaluation. It
     /// needs the flow without derivatives only. @param right of the border equations. @return false when the equations
     /// are not defined there
+    /// @param other flow of the same modes, without derivatives, to be used instead of that of the equations
     bool chord(const OrbitEvaluation& at, const Closed& closed, const Eigen::VectorXd& unknowns,
-               const Eigen::VectorXd& right, Eigen::VectorXd& step);
+               const Eigen::VectorXd& right, Eigen::VectorXd& step, ModeFlow* other = nullptr);
     /// Computes a null vector of the derivatives that is orthogonal to the row, for one free parameter. At a branch
     /// point, with the tangent of one branch as the row, it is the direction of the other branch.
     bool null_vector(const OrbitEvaluation& at, const Eigen::RowVectorXd& row, Eigen::VectorXd& vector) const;
@@ -189,7 +190,8 @@ private:
     void drop_accidentally_neutral(const OrbitEvaluation& at, std::vector<bool>& neutral);
     void close_with(std::size_t state, std::size_t drifting, OrbitEvaluation& at) const;
     void pin(const Eigen::VectorXd& unknowns, const std::vector<bool>& neutral, OrbitEvaluation& at) const;
-    bool set_right(std::size_t k, const Eigen::VectorXd& unknowns, const OrbitEvaluation& at, Eigen::VectorXd& right);
+    bool set_right(std::size_t k, const Eigen::VectorXd& unknowns, const OrbitEvaluation& at, Eigen::VectorXd& right,
+                   ModeFlow& flow);
     Eigen::MatrixXd condensed(const OrbitEvaluation& at, const Eigen::MatrixXd& borders, Eigen::VectorXd& lack) const;
     Eigen::VectorXd expanded(const OrbitEvaluation& at, const Eigen::VectorXd& outer, bool homogeneous) const;
     void clear_vanishing_states(Eigen::VectorXd& unknowns) const;
