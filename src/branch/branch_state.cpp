@@ -261,6 +261,12 @@ std::optional<double> BranchState::error_of(const Orbit& orbit, const OrbitDirec
     return size_of(problem, step);
 }
 
+SecondVariation& BranchState::second_variation() {
+    if (!second_variation_)
+        second_variation_.emplace(problem_->equations());
+    return *second_variation_;
+}
+
 bool BranchState::is_in_family(const Orbit& orbit) {
     if (!settings_.free.empty() || !problem_->evaluate(problem_->unknowns_of(orbit)) ||
         problem_->evaluation().system.undetermined() == 0)

@@ -7,6 +7,7 @@
 #include "graze/branch/switching.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/cut.hpp"
+#include "orbit/second_variation.hpp"
 
 #include <Eigen/Core>
 
@@ -44,6 +45,8 @@ public:
     const Model& model() const { return system().model(); }
     const BranchSettings& settings() const { return settings_; }
     OrbitProblem& problem() { return *problem_; }
+    /// Second derivatives of the equations, which do not depend on the signature; made when first needed.
+    SecondVariation& second_variation();
     Continuation& continuation() { return *continuation_; }
     /// Converts an arclength of the current continuation, which may have been restarted, to one of the branch.
     double arclength(double in_continuation) const { return arclength_ + in_continuation; }
@@ -121,6 +124,7 @@ private:
     Simulation simulation_;
     std::optional<Simulation> tighter_; ///< made when first needed
     std::optional<ModeFlow> tighter_flow_;
+    std::optional<SecondVariation> second_variation_;
     std::unique_ptr<OrbitMonitors> monitors_;
     /// One condition for each additional free parameter, those of the kept point last.
     std::vector<std::unique_ptr<OrbitCondition>> held_;

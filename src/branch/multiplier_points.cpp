@@ -173,7 +173,7 @@ void test_fold(const TestedPoint& point, std::vector<BranchTest>& tests) {
 bool confirm_fold(BranchState& state, SpecialPoint& special, const BranchTest&) {
     const OrbitProblem& problem = state.problem();
     if (special.located && state.settings().unfolded == 0 && state.settings().free.empty())
-        if (const auto form = fold_form(problem.equations(), problem.evaluation()))
+        if (const auto form = fold_form(problem.equations(), problem.evaluation(), state.second_variation()))
             special.detail = form_in_words(*form, state);
     return special.located && has_multiplier(state, special, 1);
 }
@@ -206,10 +206,10 @@ void test_asymmetry(const TestedPoint& point, std::vector<BranchTest>& tests) {
 }
 
 bool confirm_flip(BranchState& state, SpecialPoint& special, const BranchTest&) {
-    SecondVariation variation(state.problem().equations());
     if (state.settings().unfolded > 0) // both multipliers of the pair are -1
         return special.located && has_multiplier(state, special, -1);
-    if (const auto form = flip_criticality(state.problem().equations(), state.problem().evaluation(), variation))
+    const OrbitProblem& problem = state.problem();
+    if (const auto form = flip_criticality(problem.equations(), problem.evaluation(), state.second_variation()))
         special.detail = form_in_words(*form, "c", 1, "two multipliers are -1");
     return special.located && has_multiplier(state, special, -1);
 }
@@ -284,8 +284,8 @@ void test_torus(const TestedPoint& point, std::vector<BranchTest>& tests) {
 }
 
 bool confirm_torus(BranchState& state, SpecialPoint& special, const BranchTest&) {
-    SecondVariation variation(state.problem().equations());
-    if (const auto form = torus_criticality(state.problem().equations(), state.problem().evaluation(), variation))
+    const OrbitProblem& problem = state.problem();
+    if (const auto form = torus_criticality(problem.equations(), problem.evaluation(), state.second_variation()))
         special.detail = form_in_words(*form, "d", -1, "two pairs are one");
     return special.located && has_pair_on_circle(state, special);
 }
@@ -317,7 +317,8 @@ bool confirm_resonance(BranchState&, SpecialPoint& special, const BranchTest& te
 }
 
 bool confirm_cusp(BranchState& state, SpecialPoint& special, const BranchTest&) {
-    if (const auto coefficient = cusp_coefficient(state.problem().equations(), state.problem().evaluation()))
+    const OrbitProblem& problem = state.problem();
+    if (const auto coefficient = cusp_coefficient(problem.equations(), problem.evaluation(), state.second_variation()))
         special.detail = fmt::format("c = {:.6g}", *coefficient);
     return special.located;
 }

@@ -252,10 +252,10 @@ struct Fold {
 
 } // namespace
 
-std::optional<FoldForm> fold_form(const OrbitEquations& equations, const OrbitEvaluation& at) {
+std::optional<FoldForm> fold_form(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                  SecondVariation& variation) {
     if (equations.layout().start_of(at.pieces.size()) > Expansion::most_unknowns || equations.free().empty())
         return std::nullopt;
-    SecondVariation variation(equations);
     Expansion expansion(equations, at, variation);
     const Fold fold(expansion, expansion.closed_by(1));
     double second = 0, parts = 0;
@@ -283,11 +283,11 @@ std::optional<FoldForm> fold_form(const OrbitEquations& equations, const OrbitEv
 
 /// Like the coefficient of a flip, but the second-order correction is solved in a bordered system, because the matrix
 /// is singular along the null vector.
-std::optional<double> cusp_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at) {
+std::optional<double> cusp_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                       SecondVariation& variation) {
     const auto count = index(equations.layout().start_of(at.pieces.size()));
     if (static_cast<std::size_t>(count) > Expansion::most_unknowns)
         return std::nullopt;
-    SecondVariation variation(equations);
     Expansion expansion(equations, at, variation);
     const MatrixXcd matrix = expansion.closed_by(1);
     const Fold fold(expansion, matrix);

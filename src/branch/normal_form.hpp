@@ -53,11 +53,13 @@ struct FoldForm {
 };
 /// @param at evaluation at an orbit with a multiplier 1, with a free parameter. @return empty where it cannot be
 /// computed
-std::optional<FoldForm> fold_form(const OrbitEquations& equations, const OrbitEvaluation& at);
+std::optional<FoldForm> fold_form(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                  SecondVariation& variation);
 
 /// Returns the coefficient c of the cusp, w -> w + c w^3: for c < 0 the outer two of the three orbits are stable.
 /// @param at evaluation at an orbit with a multiplier 1 and fold coefficient zero
-std::optional<double> cusp_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at);
+std::optional<double> cusp_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                       SecondVariation& variation);
 
 /// Return the units of starts and durations, and those of the equations: for each piece that of its end condition, then
 /// those of the states.

@@ -96,7 +96,8 @@ bool is_attracting(const OrbitSolution& solution) {
 }
 
 /// Returns the gate; near a cusp it is limited by the cubic term c w^3.
-double gate_of(const OrbitEquations& equations, const OrbitEvaluation& at, const FoldForm& form) {
+double gate_of(const OrbitEquations& equations, const OrbitEvaluation& at, const FoldForm& form,
+               SecondVariation& variation) {
     constexpr double cubic_share = 0.3, no_size = 1e-6;
     const double gate = gate_share / form.coefficient;
     double size = 0; // scaled size of the critical vector, the step of third derivatives
@@ -104,7 +105,7 @@ double gate_of(const OrbitEquations& equations, const OrbitEvaluation& at, const
         size = std::max(size, std::abs(form.critical[i]) * at.scales[static_cast<Eigen::Index>(i)]);
     if (size < no_size * gate)
         return gate; // an orbit at zero has no extent
-    const auto cubic = cusp_coefficient(equations, at);
+    const auto cubic = cusp_coefficient(equations, at, variation);
     return cubic && *cubic != 0 ? std::min(gate, cubic_share * form.coefficient / std::abs(*cubic)) : gate;
 }
 
@@ -124,7 +125,8 @@ FoldPassage fold_passage(const System& system, const SpecialPoint& point, Parame
     Shooting equations(simulation, result.orbit, {parameter});
     OrbitEvaluation at = equations.evaluation();
     const bool followed = equations.evaluate(equations.unknowns_of(result.orbit), at);
-    const auto form = followed ? fold_form(equations, at) : std::nullopt;
+    SecondVariation variation(equations);
+    const auto form = followed ? fold_form(equations, at, variation) : std::nullopt;
     if (!form || form->coefficient == 0 || !form->is_simple)
         throw InputError("the normal form of the fold cannot be computed" +
                              (at.problem.empty() ? std::string() : ": " + at.problem),
@@ -140,7 +142,7 @@ FoldPassage fold_passage(const System& system, const SpecialPoint& point, Parame
     result.attracting = is_attracting(fold.solution);
     result.critical = form->critical;
     result.adjoint = form->adjoint;
-    result.gate = gate_of(equations, at, *form);
+    result.gate = gate_of(equations, at, *form, variation);
     return result;
 }
 
