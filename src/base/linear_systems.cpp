@@ -1,5 +1,7 @@
 #include "base/linear_systems.hpp"
 
+#include <limits>
+
 namespace graze {
 
 template <class Scalar>
@@ -28,6 +30,16 @@ auto PartialLU<Scalar>::inverse() const -> Matrix {
 template <class Scalar>
 Scalar PartialLU<Scalar>::determinant() const {
     return factors_.determinant();
+}
+
+template <class Scalar>
+double PartialLU<Scalar>::reciprocal_condition() const {
+    return factors_.rcond();
+}
+
+template <class Scalar>
+bool PartialLU<Scalar>::is_regular() const {
+    return factors_.rcond() > std::numeric_limits<double>::epsilon();
 }
 
 template class PartialLU<double>;
@@ -110,6 +122,15 @@ Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& matrix, const Eigen::Ve
 
 void make_triangular(Eigen::Ref<Eigen::MatrixXd> matrix) {
     const Eigen::HouseholderQR<Eigen::Ref<Eigen::MatrixXd>> factors(matrix);
+}
+
+Eigen::MatrixXd make_triangular_with(Eigen::MatrixXd& matrix, Eigen::MatrixXd& others) {
+    const Eigen::HouseholderQR<Eigen::MatrixXd> factors(matrix);
+    others.applyOnTheLeft(factors.householderQ().adjoint());
+    Eigen::MatrixXd reflections = factors.matrixQR().triangularView<Eigen::UnitLower>();
+    reflections *= factors.hCoeffs().cwiseSqrt().asDiagonal();
+    matrix = factors.matrixQR().triangularView<Eigen::Upper>();
+    return reflections;
 }
 
 double determinant(const Eigen::MatrixXd& matrix) {

@@ -25,6 +25,10 @@ public:
     Vector solve_transposed(const Vector& right) const;
     Matrix inverse() const;
     Scalar determinant() const;
+    /// Returns an estimate of the reciprocal of the condition number, in the 1-norm.
+    double reciprocal_condition() const;
+    /// True when the matrix, which may then have been singular, is regular to working precision.
+    bool is_regular() const;
 
 private:
     Eigen::PartialPivLU<Matrix> factors_;
@@ -83,6 +87,9 @@ Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& matrix, const Eigen::Ve
                                   std::optional<double> threshold = {});
 /// Replaces the upper triangle of the matrix by its factor R; the entries below are then meaningless.
 void make_triangular(Eigen::Ref<Eigen::MatrixXd> matrix);
+/// Makes the matrix, with more rows than columns, upper triangular by Householder reflections x - m (m^T x), |m|^2 = 2,
+/// and applies them to other columns. @return the vectors m, zero where no reflection was needed
+Eigen::MatrixXd make_triangular_with(Eigen::MatrixXd& matrix, Eigen::MatrixXd& others);
 
 double determinant(const Eigen::MatrixXd& matrix);
 

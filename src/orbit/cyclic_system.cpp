@@ -38,8 +38,14 @@ double reflect(Eigen::MatrixXd& a, Eigen::MatrixXd& b, Eigen::MatrixXd& mirrors)
     return sign;
 }
 
+/// The same in blocks, for many columns, which is many times faster.
+double reflect_in_blocks(Eigen::MatrixXd& a, Eigen::MatrixXd& b, Eigen::MatrixXd& mirrors) {
+    mirrors = make_triangular_with(a, b);
+    return (mirrors.colwise().squaredNorm().array() > 0).count() % 2 == 0 ? 1 : -1;
+}
+
 /// Applies the same reflections to a vector.
-void reflect(Eigen::VectorXd& vector, const Eigen::MatrixXd& mirrors) {
+void apply_reflections(Eigen::VectorXd& vector, const Eigen::MatrixXd& mirrors) {
     for (Eigen::Index c = 0; c < mirrors.cols(); ++c) {
         const Eigen::Index rows = vector.size() - c;
         const auto mirror = mirrors.col(c).tail(rows);
@@ -47,23 +53,31 @@ void reflect(Eigen::VectorXd& vector, const Eigen::MatrixXd& mirrors) {
     }
 }
 
-/// Returns the largest singular value of a regular matrix times the product of all but the smallest one: how much the
-/// determinant changes with a change of the matrix of its own size. By power iterations, which underestimate the
-/// largest value a little, and overestimate the smallest; where the matrix is singular, by its singular values.
-double largest_minor(const Eigen::MatrixXd& matrix, const PartialLU<double>& factors, double determinant) {
-    constexpr int iterations = 4;
-    const auto begin = Eigen::VectorXd::NullaryExpr(
-        matrix.cols(), [](Eigen::Index i) { return std::cos(1.7 * static_cast<double>(i) + 0.3); });
-    Eigen::VectorXd large = begin.normalized(), small = large;
-    double largest = 0, inverse = 0;
-    for (int i = 0; i < iterations; ++i) {
-        large = matrix.transpose() * (matrix * large);
-        largest = std::sqrt(large.norm());
-        large.normalize();
-        small = factors.solve(factors.solve_transposed(small));
-        inverse = std::sqrt(small.norm());
-        small.normalize();
+/// The largest singular value of a regular matrix, and the inverse of the smallest: by power iterations, which
+/// underestimate both a little.
+struct Extremes {
+    Extremes(const Eigen::MatrixXd& matrix, const PartialLU<double>& factors) {
+        constexpr int iterations = 4;
+        const auto begin = Eigen::VectorXd::NullaryExpr(
+            matrix.cols(), [](Eigen::Index i) { return std::cos(1.7 * static_cast<double>(i) + 0.3); });
+        Eigen::VectorXd large = begin.normalized(), small = large;
+        for (int i = 0; i < iterations; ++i) {
+            large = matrix.transpose() * (matrix * large);
+            largest = std::sqrt(large.norm());
+            large.normalize();
+            small = factors.solve(factors.solve_transposed(small));
+            inverse = std::sqrt(small.norm());
+            small.normalize();
+        }
     }
+    double largest = 0, inverse = 0;
+};
+
+/// Returns the largest singular value of a regular matrix times the product of all but the smallest one: how much the
+/// determinant changes with a change of the matrix of its own size. Where the matrix is singular, by its singular
+/// values.
+double largest_minor(const Eigen::MatrixXd& matrix, const PartialLU<double>& factors, double determinant) {
+    const auto [largest, inverse] = Extremes(matrix, factors);
     const double result = largest * std::abs(determinant) * inverse;
     if (determinant != 0 && std::isfinite(result))
         return result;
@@ -74,9 +88,11 @@ double largest_minor(const Eigen::MatrixXd& matrix, const PartialLU<double>& fac
 } // namespace
 
 CyclicSystem::CyclicSystem(std::size_t states, std::size_t parameters) : n_(states), q_(parameters) {
-    stack_.resize(index(2 * n_ + 1), index(n_ + 1));
-    right_.resize(index(2 * n_ + 1), index(2 * n_ + q_));
     final_.resize(index(n_), index(2 * n_ + q_));
+}
+
+bool CyclicSystem::keeps_first_start() const {
+    return index(n_) > many_states;
 }
 
 void CyclicSystem::resize(std::size_t segments) {
@@ -85,20 +101,49 @@ void CyclicSystem::resize(std::size_t segments) {
         blocks_.push_back({Eigen::MatrixXd::Zero(index(n_ + 1), index(n_ + 1)),
                            Eigen::MatrixXd::Zero(index(n_ + 1), index(n_)),
                            Eigen::MatrixXd::Zero(index(n_ + 1), index(q_)), Eigen::VectorXd::Zero(index(n_ + 1))});
-    for (std::size_t k = eliminated_.size(); k < segments; ++k)
-        eliminated_.push_back({Eigen::MatrixXd(index(n_ + 1), index(n_ + 1)),
-                               Eigen::MatrixXd(index(n_ + 1), index(2 * n_ + q_)),
-                               Eigen::MatrixXd(index(2 * n_ + 1), index(n_ + 1))});
+    for (std::size_t k = eliminated_.size(); k < segments; ++k) {
+        const Eigen::Index gone = k == 0 && keeps_first_start() ? 1 : index(n_ + 1), rows = gone + index(n_);
+        eliminated_.push_back(
+            {Eigen::MatrixXd(gone, gone), Eigen::MatrixXd(gone, index(2 * n_ + q_)), Eigen::MatrixXd(rows, gone)});
+    }
+}
+
+/// Eliminates the duration of the first segment by one reflection. @return false when a number is not finite
+bool CyclicSystem::eliminate_first_duration() {
+    const Eigen::Index n = index(n_);
+    const Block& block = blocks_.front();
+    Eliminated& gone = eliminated_.front();
+    Eigen::MatrixXd duration = block.own.rightCols(1), others(n + 1, 2 * n + index(q_));
+    others << block.own.leftCols(n), block.next, block.parameters;
+    if (!duration.allFinite() || !others.allFinite())
+        return false;
+    sign_ *= reflect(duration, others, gone.mirrors) * (duration(0, 0) < 0 ? -1 : 1);
+    gone.triangle = duration.topRows(1);
+    gone.rest = others.topRows(1);
+    final_ = others.bottomRows(n);
+    return true;
 }
 
 bool CyclicSystem::factor() {
     const Eigen::Index n = index(n_), q = index(q_);
     // Relates each x_k to x_0: C x_0 + D x_k + E p is known. Initially x_0 - x_0 = 0.
-    Eigen::MatrixXd relation = Eigen::MatrixXd::Zero(n, 2 * n + q); // C, D, E
-    relation.leftCols(n).setIdentity();
-    relation.middleCols(n, n) = -Eigen::MatrixXd::Identity(n, n);
+    Eigen::MatrixXd relation; // C, D, E
     sign_ = 1;
-    for (std::size_t k = 0; k < count_; ++k) {
+    std::size_t begin = 0;
+    if (keeps_first_start()) {
+        if (!eliminate_first_duration())
+            return false;
+        if (++begin == count_)
+            return true;
+        relation = final_;
+    } else {
+        relation.setZero(n, 2 * n + q);
+        relation.leftCols(n).setIdentity();
+        relation.middleCols(n, n) = -Eigen::MatrixXd::Identity(n, n);
+    }
+    stack_.resize(2 * n + 1, n + 1);
+    right_.resize(2 * n + 1, 2 * n + q);
+    for (std::size_t k = begin; k < count_; ++k) {
         const Block& block = blocks_[k];
         stack_.setZero();
         stack_.topLeftCorner(n, n) = relation.middleCols(n, n);
@@ -110,7 +155,7 @@ bool CyclicSystem::factor() {
         right_.block(n, 2 * n, n + 1, q) = block.parameters;
         if (!stack_.allFinite() || !right_.allFinite())
             return false;
-        sign_ *= reflect(stack_, right_, eliminated_[k].mirrors);
+        sign_ *= (n > many_states ? reflect_in_blocks : reflect)(stack_, right_, eliminated_[k].mirrors);
         for (Eigen::Index i = 0; i <= n; ++i)
             sign_ *= stack_(i, i) < 0 ? -1 : 1;
         eliminated_[k].triangle = stack_.topRows(n + 1);
@@ -144,7 +189,12 @@ Eigen::MatrixXd CyclicSystem::condense(const Eigen::MatrixXd& borders, std::vect
     shares.resize(count_);
     for (std::size_t k = 0; k < count_; ++k) {
         const Eliminated& gone = eliminated_[k];
-        const Eigen::MatrixXd own = rows.middleCols(index(k) * (n + 1), n + 1);
+        const bool keeps_start = k == 0 && keeps_first_start();
+        Eigen::MatrixXd own = rows.middleCols(index(k) * (n + 1), n + 1);
+        if (keeps_start) {
+            start = own.leftCols(n);
+            own = own.rightCols(1).eval();
+        }
         shares[k].resize(0, 0);
         if (own.isZero(0))
             continue;
@@ -173,12 +223,15 @@ Eigen::VectorXd CyclicSystem::expand(const Eigen::VectorXd& first, const Eigen::
     Eigen::VectorXd following = last; // x_{k+1}, going backwards
     for (std::size_t k = count_; k-- > 0;) {
         const Eliminated& gone = eliminated_[k];
-        Eigen::VectorXd sum = constants.empty() ? Eigen::VectorXd::Zero(n + 1) : constants[k];
+        Eigen::VectorXd sum = constants.empty() ? Eigen::VectorXd::Zero(gone.rest.rows()) : constants[k];
         sum -= gone.rest.leftCols(n) * first.head(n) + gone.rest.middleCols(n, n) * following +
                gone.rest.middleCols(2 * n, q) * first.tail(q);
         gone.triangle.triangularView<Eigen::Upper>().solveInPlace(sum);
-        solution.segment(index(k) * (n + 1), n + 1) = sum;
-        following = sum.head(n);
+        if (k == 0 && keeps_first_start())
+            solution.head(n + 1) << first.head(n), sum;
+        else
+            solution.segment(index(k) * (n + 1), n + 1) = sum;
+        following = sum.head(std::min(n, sum.size()));
     }
     return solution;
 }
@@ -186,9 +239,16 @@ Eigen::VectorXd CyclicSystem::expand(const Eigen::VectorXd& first, const Eigen::
 CyclicSystem::Closed CyclicSystem::close(const Eigen::MatrixXd& borders) const {
     Closed closed;
     const Eigen::MatrixXd matrix = condense(borders, closed.shares_);
+    const bool finite = matrix.allFinite();
+    if (index(n_) > many_states) {
+        closed.large_lu_.emplace(matrix);
+        closed.determinant_ = sign_ * closed.large_lu_->determinant();
+        closed.regular_ = finite && closed.large_lu_->is_regular();
+        return closed;
+    }
     closed.lu_.compute(matrix);
     closed.determinant_ = sign_ * closed.lu_.determinant();
-    closed.regular_ = matrix.allFinite() && closed.lu_.is_invertible();
+    closed.regular_ = finite && closed.lu_.is_invertible();
     return closed;
 }
 
@@ -213,7 +273,7 @@ bool CyclicSystem::solve(const Closed& closed, const Eigen::VectorXd* blocks, co
     for (std::size_t k = 0; k < constants.size(); ++k)
         if (closed.shares_[k].size() > 0)
             values.tail(q) -= closed.shares_[k] * constants[k];
-    const Eigen::VectorXd first = closed.lu_.solve(values);
+    const Eigen::VectorXd first = closed.large_lu_ ? closed.large_lu_->solve(values) : closed.lu_.solve(values);
     solution = expand(first, first.head(n), constants);
     return solution.allFinite();
 }
@@ -223,10 +283,12 @@ Eigen::VectorXd CyclicSystem::reduced(const Eigen::VectorXd& blocks, std::vector
     const Eigen::Index n = index(n_);
     Eigen::VectorXd values = Eigen::VectorXd::Zero(n);
     for (std::size_t k = 0; k < count_; ++k) {
-        Eigen::VectorXd both(2 * n + 1);
-        both << values, blocks.segment(index(k) * (n + 1), n + 1);
-        reflect(both, eliminated_[k].mirrors);
-        constants.emplace_back(both.head(n + 1));
+        const bool keeps_start = k == 0 && keeps_first_start();
+        Eigen::VectorXd both(keeps_start ? n + 1 : 2 * n + 1);
+        both.head(both.size() - n - 1) = values.head(both.size() - n - 1);
+        both.tail(n + 1) = blocks.segment(index(k) * (n + 1), n + 1);
+        apply_reflections(both, eliminated_[k].mirrors);
+        constants.emplace_back(both.head(both.size() - n));
         values = both.tail(n);
     }
     return values;
@@ -252,6 +314,14 @@ std::size_t CyclicSystem::undetermined() const {
     const Eigen::Index n = index(n_);
     Eigen::MatrixXd matrix(n, n + index(q_));
     matrix << final_.leftCols(n) + final_.middleCols(n, n), final_.rightCols(index(q_));
+    // Singular values of large matrices take long: most matrices are regular by far, parameters apart.
+    if (n > many_states && matrix.allFinite()) {
+        constexpr double far = 100; // the extremes are estimates
+        const Eigen::MatrixXd square = matrix.leftCols(n);
+        const auto [largest, inverse] = Extremes(square, PartialLU<double>(square));
+        if (largest * inverse * far * rank_tolerance < 1)
+            return 0;
+    }
     return static_cast<std::size_t>(n - singular_values(matrix, SingularVectors::none).rank(rank_tolerance));
 }
 

@@ -3,6 +3,7 @@
 #include "base/linear_systems.hpp"
 #include "orbit/eigen_index.hpp"
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -15,7 +16,9 @@ namespace graze {
 ///
 /// closed by q border equations in all unknowns. Starts are eliminated one after another by orthogonal transformations
 /// (S. J. Wright, "Stable parallel algorithms for two-point boundary value problems", SIAM J. Sci. Stat. Comput. 13,
-/// 1992), which is stable however much arcs expand; the cost is proportional to m.
+/// 1992), which is stable however much arcs expand; the cost is proportional to m. With many states the first start is
+/// not eliminated: it stays an unknown of the condensed equations in any case, and the cost of a single segment falls
+/// from the cube of n to the square.
 class CyclicSystem {
 public:
     struct Block {
@@ -58,6 +61,7 @@ public:
     private:
         friend class CyclicSystem;
         FullLU<double> lu_;
+        std::optional<PartialLU<double>> large_lu_; ///< in its place, with many states
         /// Per segment: coefficients by which its equations enter the borders; empty: zero.
         std::vector<Eigen::MatrixXd> shares_;
         bool regular_ = false;
@@ -89,6 +93,8 @@ public:
     Eigen::VectorXd between(const Eigen::VectorXd& first, const Eigen::VectorXd& last) const;
 
 private:
+    bool keeps_first_start() const;
+    bool eliminate_first_duration();
     Determinant determinant_closed_by(double closing) const;
     Eigen::VectorXd reduced(const Eigen::VectorXd& blocks, std::vector<Eigen::VectorXd>& constants) const;
     Eigen::MatrixXd condense(const Eigen::MatrixXd& borders, std::vector<Eigen::MatrixXd>& shares) const;
@@ -96,7 +102,8 @@ private:
                            const std::vector<Eigen::VectorXd>& constants) const;
 
     /// Eliminated equations of a segment: triangle (x_k, T_k) + rest (x_0, x_{k+1}, p) = constant; the reflections that
-    /// produced them are kept for the constants of other right-hand sides.
+    /// produced them are kept for the constants of other right-hand sides. Where the first start is kept, only T_0 of
+    /// the first segment is eliminated.
     struct Eliminated {
         Eigen::MatrixXd triangle, rest;
         Eigen::MatrixXd mirrors; ///< reflection vectors in columns; zero where no reflection was needed

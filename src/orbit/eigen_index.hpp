@@ -31,4 +31,8 @@ inline std::vector<double> numbers_of(const Eigen::VectorXd& vector) {
     return {vector.begin(), vector.end()};
 }
 
+/// Number of states above which work in blocks takes the place of steps of one column, and multipliers that do not
+/// matter are not computed.
+inline constexpr Eigen::Index many_states = 256;
+
 } // namespace graze

@@ -67,4 +67,55 @@ TEST(CyclicSystem, HasASignedDeterminantWithoutStates) {
     EXPECT_EQ(system.periodic_determinant().noise, 0);
 }
 
+/// With many states the first start is not eliminated, and work is done in blocks: solutions, determinants and null
+/// vectors are those of the whole matrix.
+TEST(CyclicSystem, WithManyStatesAgreesWithTheWholeMatrix) {
+    constexpr Eigen::Index n = 260, q = 1;
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal;
+    const auto any = [&](Eigen::Index rows, Eigen::Index columns) {
+        return Eigen::MatrixXd(Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return normal(random); }));
+    };
+    for (const Eigen::Index segments : {1, 3}) {
+        CyclicSystem system(n, q);
+        system.resize(static_cast<std::size_t>(segments));
+        const Eigen::Index all = segments * (n + 1) + q;
+        Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(all, all);
+        Eigen::VectorXd right = any(all, 1);
+        for (Eigen::Index k = 0; k < segments; ++k) {
+            CyclicSystem::Block& block = system.block(static_cast<std::size_t>(k));
+            block.own = any(n + 1, n + 1) / std::sqrt(n);
+            block.own.row(0) *= std::sqrt(n);
+            block.next.setZero();
+            block.next.bottomRows(n).setIdentity();
+            block.parameters = any(n + 1, q);
+            block.right = right.segment(k * (n + 1), n + 1);
+            whole.block(k * (n + 1), k * (n + 1), n + 1, n + 1) += block.own;
+            whole.block(k * (n + 1), (k + 1) % segments * (n + 1), n + 1, n) += block.next;
+            whole.block(k * (n + 1), all - q, n + 1, q) = block.parameters;
+        }
+        const Eigen::MatrixXd borders = any(q, all);
+        whole.bottomRows(q) = borders;
+        ASSERT_TRUE(system.factor());
+        const auto closed = system.close(borders);
+        ASSERT_TRUE(closed.is_regular());
+        const Eigen::VectorXd blocks = system.right_hand_sides();
+        Eigen::VectorXd solution;
+        ASSERT_TRUE(system.solve(closed, &blocks, right.tail(q), solution));
+        EXPECT_LT((whole * solution - right).norm(), 1e-9 * right.norm()) << segments;
+        // Exchanging rows of one block changes the signs of all determinants.
+        const double before = closed.determinant(), periodic = system.periodic_determinant().value,
+                     antiperiodic = system.antiperiodic_determinant().value;
+        CyclicSystem::Block& last = system.block(static_cast<std::size_t>(segments - 1));
+        last.own.row(1).swap(last.own.row(2));
+        last.next.row(1).swap(last.next.row(2));
+        last.parameters.row(1).swap(last.parameters.row(2));
+        ASSERT_TRUE(system.factor());
+        EXPECT_LT(system.close(borders).determinant() * before, 0);
+        EXPECT_LT(system.periodic_determinant().value * periodic, 0);
+        EXPECT_LT(system.antiperiodic_determinant().value * antiperiodic, 0);
+        EXPECT_EQ(system.undetermined(), 0U);
+    }
+}
+
 } // namespace graze::cyclic_system_test
