@@ -28,7 +28,8 @@ class Point(Fixed, PointAnalyses):
 
     Attributes: `label` ("GR1"; empty for regular points), `number`, `type` ("GR"), `type_words` ("grazing"), `detail`,
     `parameter` (value of the one that is followed), `period`, `stable`, `multipliers` (complex, the largest first; empty
-    where they are not defined), `half_multipliers` of symmetric orbits, `eigenvalues` of equilibria (complex, per unit of
+    where they are not defined, and of models with more than 256 states only those outside a circle: the `other_multipliers`,
+    0 for other models, lie within the radius `others_within`), `half_multipliers` of symmetric orbits, `eigenvalues` of equilibria (complex, per unit of
     time, the largest real part first; their period is 0), `unphysical`, `error` (estimated, relative),
     `starts` (segments x states), `durations` and `approach_speeds` (segments); and dicts `parameters`, `monitors`. Arrays can be read only: copy them to change them.
     """

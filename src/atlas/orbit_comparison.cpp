@@ -40,7 +40,7 @@ bool may_lie_between(const FollowedOrbit& one, const FollowedOrbit& other, const
 
 /// Whether motions may stay on an orbit: also on one at a bifurcation, which repels none.
 bool may_stay_on(const OrbitSolution& solution) {
-    return !solution.multipliers.empty() && unstable_directions(solution) == 0;
+    return number_of_multipliers(solution) > 0 && unstable_directions(solution) == 0;
 }
 
 /// The orbit that lies on the straight line between two of the same signature.

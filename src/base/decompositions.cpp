@@ -149,6 +149,15 @@ Eigen::MatrixXd orthogonal_complement(const Eigen::VectorXd& vector) {
     return all.rightCols(n - 1);
 }
 
+Eigen::MatrixXd between_complements(const Eigen::VectorXd& left, const Eigen::MatrixXd& matrix,
+                                    const Eigen::VectorXd& right) {
+    const Eigen::HouseholderQR<Eigen::MatrixXd> before(left), after(right);
+    Eigen::MatrixXd result = matrix;
+    result.applyOnTheLeft(before.householderQ().adjoint());
+    result.applyOnTheRight(after.householderQ());
+    return result.bottomRightCorner(matrix.rows() - 1, matrix.cols() - 1);
+}
+
 NearlyNull nearly_null(const Eigen::MatrixXd& matrix) {
     const Eigen::Index rows = matrix.rows();
     const Eigen::MatrixXd transposed = matrix.transpose();

@@ -65,6 +65,10 @@ struct OrthogonalFactors {
 OrthogonalFactors orthogonal_factors(const Eigen::MatrixXd& matrix);
 /// Returns an orthonormal basis, in columns, of the orthogonal complement of a nonzero vector.
 Eigen::MatrixXd orthogonal_complement(const Eigen::VectorXd& vector);
+/// Returns orthogonal_complement(left).transpose() * matrix * orthogonal_complement(right), in time proportional to the
+/// size of the matrix.
+Eigen::MatrixXd between_complements(const Eigen::VectorXd& left, const Eigen::MatrixXd& matrix,
+                                    const Eigen::VectorXd& right);
 
 /// Approximate null vectors of a nearly rank-deficient matrix with one column more than rows, by QR with column
 /// pivoting: matrix * right and left.transpose() * matrix are nearly zero.

@@ -208,7 +208,11 @@ std::optional<DescribedPoint> BranchState::describe(const ContinuationPoint& at)
     result.solution.outcome = OrbitOutcome::converged;
     result.solution.iterations = at.iterations;
     result.solution.orbit = problem_->orbit_of(at.u);
-    describe_orbit(equations, evaluation, result.solution, held_limit_of(settings_));
+    const bool wants_all = settings_.unfolded > 0 || std::ranges::any_of(settings_.monitors, [](const Monitor& one) {
+                               return one.kind == Monitor::Kind::multiplier;
+                           });
+    describe_orbit(equations, evaluation, result.solution, held_limit_of(settings_),
+                   wants_all ? Spectrum::all : Spectrum::leading);
     mark_neutral(result.solution, settings_.unfolded);
     update_kept_time(result.solution);
     result.parameter = at.u[problem_->parameter_place()];

@@ -124,8 +124,10 @@ bool confirm_grazing(BranchState& state, SpecialPoint& special, const BranchTest
     if (arc.end == SegmentEnd::event && state.model().transitions[arc.index].event == special.event &&
         special.type == PointType::grazing && special.time > (1 - very_end) * duration)
         special.at_end = true;
-    if (special.at_end) // the multipliers diverge there
+    if (special.at_end) { // the multipliers diverge there
         special.solution.multipliers.clear();
+        special.solution.other_multipliers = 0;
+    }
     special.detail =
         fmt::format("{}{}", state.model().events[special.event].name, special.at_end ? ", no approach speed" : "");
     add_sliding_name(state, special);

@@ -93,6 +93,8 @@ std::string multipliers_in_words(const SpecialPoint& point) {
     const bool homoclinic = is_homoclinic(point.solution.orbit.signature),
                rests = is_rest(point.solution.orbit.signature);
     const auto& all = rests || homoclinic ? point.solution.eigenvalues : multipliers_followed(point.solution);
+    if (all.empty() && number_of_multipliers(point.solution) > 0)
+        return fmt::format("all its multipliers lie within {:.3g}", point.solution.others_within);
     if (all.empty())
         return "its multipliers are not defined, as where a contact has no speed";
     std::vector<std::string> texts;

@@ -94,7 +94,7 @@ private:
         auto there = state_.describe_between(fraction);
         if (there)
             here = {fraction, std::move(*there)};
-        return there && here.multipliers().size() == size_;
+        return there && here.number_of_multipliers() == size_;
     }
     /// Samples a point inside the interval whose number of unstable multipliers is certain.
     bool sample_between(const StepSample& low, const StepSample& high, StepSample& middle) {
@@ -138,7 +138,9 @@ private:
         const Count before = unstable(low.multipliers(), margin), after = unstable(high.multipliers(), margin);
         const auto rank = static_cast<std::size_t>(std::min(before.most, after.most));
         const auto count = static_cast<std::size_t>(std::abs(after.most - before.most));
-        const MultiplierList sorted = by_modulus(low.multipliers());
+        // At one end they may be among those that are not computed.
+        const bool fewer = low.multipliers().size() < high.multipliers().size();
+        const MultiplierList sorted = by_modulus((fewer ? high : low).multipliers());
         if (count == 0 || rank + count > sorted.size())
             return;
         std::size_t ones = 0, minus_ones = 0;
@@ -182,7 +184,10 @@ private:
     void note(const StepSample& low, const StepSample& high, std::size_t rank, PointType type, std::string detail) {
         constexpr double close = 1e-6, not_there = 1e-3;
         constexpr int most = 60;
-        const auto growth = [&](const StepSample& here) { return std::abs(by_modulus(here.multipliers())[rank]) - 1; };
+        const auto growth = [&](const StepSample& here) {
+            const MultiplierList sorted = by_modulus(here.multipliers());
+            return (rank < sorted.size() ? std::abs(sorted[rank]) : here.here.point.solution.others_within) - 1;
+        };
         StepSample here, best, begin = low, end = high;
         double distance = std::min(std::abs(growth(low)), std::abs(growth(high))), at = low.fraction;
         bool any = false;
@@ -241,10 +246,10 @@ std::vector<SpecialPoint> missed_points(BranchState& state, const StepSample& lo
         singles += crossing_at(one.type) == 1 ? 1 : 0;
         pairs += crossing_at(one.type) == 2 ? 1 : 0;
     }
-    if (low.multipliers().empty() || low.multipliers().size() != high.multipliers().size() ||
+    if (low.number_of_multipliers() == 0 || low.number_of_multipliers() != high.number_of_multipliers() ||
         may_explain(unstable(low.multipliers(), certain), unstable(high.multipliers(), certain), singles, pairs))
         return {};
-    Search search(state, locate, found, low.multipliers().size());
+    Search search(state, locate, found, low.number_of_multipliers());
     if (may_explain(unstable(low.multipliers(), certain), unstable(high.multipliers(), certain), 0, 0))
         search.search_beside_known(low, high);
     else

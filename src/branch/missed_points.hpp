@@ -19,7 +19,9 @@ inline const std::vector<std::complex<double>>& multipliers_followed(const Orbit
 struct StepSample {
     double fraction = 0;
     DescribedPoint here;
+    /// Those that were computed.
     const std::vector<std::complex<double>>& multipliers() const { return multipliers_followed(here.point.solution); }
+    std::size_t number_of_multipliers() const { return graze::number_of_multipliers(here.point.solution); }
 };
 
 /// Finds points of the last step at which multipliers cross the unit circle without a detected sign change. A test

@@ -83,13 +83,13 @@ bool multipliers_agree(BranchState& state, const SpecialPoint& special, const Di
     // distance that is always rejected.
     constexpr double beside = 1e-10, times = 50, far = 2;
     const LastStep step = state.last_step();
-    if (multipliers_followed(special.solution).empty()) {
+    if (number_of_multipliers(special.solution) == 0) {
         // Multipliers are undefined all along a curve of contacts of zero speed, or only here, where another contact
         // has zero speed.
         constexpr double aside = 1e-4, near = 0.1; // fraction of the step; bound of the change of multipliers over it
         const auto there =
             state.settings().kept ? state.describe_between(step.fraction(special.arclength) - aside) : std::nullopt;
-        return there && (multipliers_followed(there->point.solution).empty() || distance(there->point.solution) < near);
+        return there && (number_of_multipliers(there->point.solution) == 0 || distance(there->point.solution) < near);
     }
     const double here = distance(special.solution);
     if (here <= close || !(here < far))
@@ -275,9 +275,13 @@ void test_torus(const TestedPoint& point, std::vector<BranchTest>& tests) {
             others *= std::max(std::abs(factor), smallest);
             smallest = std::min(std::abs(factor), smallest);
         }
+    // The factors of pairs with a multiplier that is not computed count as -1: it is small.
+    const auto pairs = [](std::size_t count) { return count * (count - 1) / 2; };
+    const std::size_t all = number_of_multipliers(point.solution);
+    if ((pairs(all) - pairs(multipliers.size())) % 2 == 1)
+        product = -product;
     // Where something is conserved, multipliers come in reciprocal pairs: the product is zero everywhere.
-    if (multipliers.size() >= 2 && std::isfinite(product.real()) && !is_kept(point, PointType::torus) &&
-        point.settings.unfolded == 0)
+    if (all >= 2 && std::isfinite(product.real()) && !is_kept(point, PointType::torus) && point.settings.unfolded == 0)
         test.value = product.real();
     test.noise = least_growth * others;
     tests.push_back(test);

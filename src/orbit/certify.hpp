@@ -4,6 +4,7 @@
 #include "orbit/orbit_equations.hpp"
 
 #include <complex>
+#include <optional>
 
 namespace graze {
 
@@ -45,6 +46,16 @@ std::size_t moving_neutral_states(const OrbitEquations& equations, const OrbitEv
 /// out. Empty where an event is reached with zero speed. Method: product of saltation and flow matrices (Aizerman and
 /// Gantmakher 1958).
 std::vector<std::complex<double>> floquet_multipliers(const OrbitEquations& equations, const OrbitEvaluation& at);
+
+/// Those multipliers of a model with many states that lie outside a circle, and the number of the others.
+struct LeadingMultipliers {
+    std::vector<std::complex<double>> values; ///< largest first
+    std::size_t others = 0;
+    double others_within = 0; ///< radius below 1 of the circle in which the others lie
+};
+/// @return none where all are needed: of models with up to 256 states, where many lie near the unit circle, or where
+/// `floquet_multipliers` finds none
+std::optional<LeadingMultipliers> leading_multipliers(const OrbitEquations& equations, const OrbitEvaluation& at);
 
 /// Returns the eigenvalues of a product of square matrices, last factor times ... times first, largest first, without
 /// forming the product: orthogonal iteration through the factors (the unshifted form of the periodic QR algorithm: A.

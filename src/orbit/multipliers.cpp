@@ -1,6 +1,7 @@
 #include "base/neutral_multipliers.hpp"
 
 #include "base/decompositions.hpp"
+#include "base/leading_eigenvalues.hpp"
 #include "base/linear_systems.hpp"
 #include "orbit/certify.hpp"
 
@@ -35,7 +36,7 @@ Eigen::MatrixXd with_saltation(const OrbitEquations& equations, const OrbitEvalu
             return {};
         flow -= piece.field * (gradient * flow) / rate;
     }
-    return piece.jump.leftCols(n) * flow;
+    return jump_times(piece, flow);
 }
 
 /// Returns an orthonormal basis of the orthogonal complement of a vector, in columns.
@@ -59,15 +60,16 @@ public:
         balance();
     }
 
-    /// Appends the factors of a piece. @return false when its end is reached with zero speed
-    bool add(std::size_t k) {
+    /// Appends the factors of a piece. @param undivided leaves it whole even where it contracts so much that small
+    /// multipliers are lost. @return false when its end is reached with zero speed
+    bool add(std::size_t k, bool undivided = false) {
         const OrbitLayout& layout = equations_->layout();
         const auto n = index(layout.states());
         const double* start = at_->unknowns.data() + layout.start_of(k);
         mode_ = equations_->mode_of(k);
         std::vector<Eigen::MatrixXd> flows{at_->pieces[k].flow.leftCols(n)};
         std::vector<std::vector<double>> starts{{start, start + n}};
-        if (!layout.accumulates(k) && contracts(flows[0]))
+        if (!undivided && !layout.accumulates(k) && contracts(flows[0]))
             split(at_->unknowns[index(layout.duration_of(k))], flows, starts);
         flows.back() = with_saltation(*equations_, *at_, k, flows.back());
         if (flows.back().size() == 0)
@@ -196,13 +198,20 @@ private:
 };
 
 std::vector<Eigen::MatrixXd> SectionMapFactors::without_shifts() const {
-    std::vector<Eigen::MatrixXd> bases;
+    std::vector<Eigen::MatrixXd> bases, result;
     bool all_move = true;
+    if (index(active_->size()) > many_states) {
+        result = factors_;
+        if (std::ranges::all_of(directions_, [](const Eigen::VectorXd& one) { return one.norm() > 0; }))
+            for (std::size_t k = 0; k < result.size(); ++k)
+                result[k] = between_complements(directions_[(k + 1) % result.size()], factors_[k], directions_[k]);
+        return result;
+    }
     for (const Eigen::VectorXd& direction : directions_) {
         bases.push_back(complement(direction));
         all_move = all_move && bases.back().cols() + 1 == bases.back().rows();
     }
-    std::vector<Eigen::MatrixXd> result = factors_;
+    result = factors_;
     for (std::size_t k = 0; k < result.size() && all_move; ++k)
         result[k] = bases[(k + 1) % bases.size()].transpose() * factors_[k] * bases[k];
     return result;
@@ -271,6 +280,32 @@ std::vector<std::complex<double>> floquet_multipliers(const OrbitEquations& equa
     else if (neutral == 0)
         result = {0.0};
     add_neutral_multipliers(result, neutral);
+    return result;
+}
+
+std::optional<LeadingMultipliers> leading_multipliers(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    // Largest product of the norms of the factors, for which those of the leading multipliers keep their digits.
+    constexpr double most_growth = 1e5;
+    if (index(at.active.size()) <= many_states)
+        return std::nullopt;
+    SectionMapFactors factors(equations, at);
+    for (std::size_t k = 0; k < equations.layout().pieces(); ++k)
+        if (!factors.add(k, true))
+            return std::nullopt;
+    const std::vector<Eigen::MatrixXd> map = factors.without_shifts();
+    Eigen::MatrixXd product = map.front();
+    const double size = std::sqrt(static_cast<double>(product.rows()));
+    double growth = product.norm() / size;
+    for (std::size_t k = 1; k < map.size(); ++k) {
+        product = Eigen::MatrixXd(map[k] * product);
+        growth *= map[k].norm() / size;
+    }
+    auto found = growth < most_growth ? leading_eigenvalues(product) : std::nullopt;
+    if (!found)
+        return std::nullopt;
+    LeadingMultipliers result{std::move(found->values), 0, found->others_within};
+    result.others = static_cast<std::size_t>(product.rows()) - result.values.size();
+    add_neutral_multipliers(result.values, moving_neutral_states(equations, at));
     return result;
 }
 

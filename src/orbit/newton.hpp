@@ -17,10 +17,14 @@ void require_tolerance_in_range(double tolerance);
 OrbitOutcome solve_equations(OrbitEquations& equations, Eigen::VectorXd& unknowns, const OrbitOptions& options,
                              OrbitEvaluation& at, std::size_t& iterations, std::string& detail,
                              std::size_t undetermined = 0);
+enum class Spectrum {
+    all,
+    leading ///< of models with many states, those outside a circle if it can be shown that they are all
+};
 /// Sets residual, multipliers and certificate of a solution from an evaluation of its equations.
-/// @param held constraint at the limit of admissibility, if any
+/// @param held constraint at the limit of admissibility, if any; @param spectrum which multipliers are wanted
 void describe_orbit(OrbitEquations& equations, const OrbitEvaluation& at, OrbitSolution& solution,
-                    const std::optional<HeldLimit>& held = std::nullopt);
+                    const std::optional<HeldLimit>& held = std::nullopt, Spectrum spectrum = Spectrum::all);
 /// Marks that many multipliers as those of a family: the nearest to 1 are set to 1.
 void mark_neutral(OrbitSolution& solution, std::size_t count);
 /// True when an orbit belongs to a family of orbits at the same parameters, as in models that conserve a quantity: its

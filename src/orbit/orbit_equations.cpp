@@ -32,6 +32,20 @@ const Orbit& valid(const Model& model, const Orbit& orbit) {
 
 } // namespace
 
+Eigen::MatrixXd jump_times(const OrbitEvaluation::Piece& piece, const Eigen::MatrixXd& derivatives) {
+    const Eigen::Index n = piece.jump.rows();
+    if (n <= many_states)
+        return piece.jump.leftCols(n) * derivatives;
+    Eigen::MatrixXd result = derivatives;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        Eigen::RowVectorXd change = piece.jump.row(i).head(n);
+        change[i] -= 1;
+        if (!change.isZero(0))
+            result.row(i) = piece.jump.row(i).head(n) * derivatives;
+    }
+    return result;
+}
+
 OrbitEquations::OrbitEquations(const Simulation& simulation, const Orbit& orbit, std::vector<ParameterId> free,
                                std::vector<double> ranges)
     : simulation_(simulation), ends_(simulation.system(), valid(simulation.model(), orbit), std::move(free)),
@@ -581,7 +595,7 @@ void OrbitEquations::assemble_closure(std::size_t k, const Eigen::VectorXd& unkn
     CyclicSystem::Block& block = at.system.block(k);
     const Eigen::VectorXd state_scales = scales_.head(n), units = state_scales.cwiseInverse();
     const Eigen::MatrixXd jump = piece.jump.leftCols(n);
-    const Eigen::MatrixXd by_start = jump * piece.flow.leftCols(n);
+    const Eigen::MatrixXd by_start = jump_times(piece, piece.flow.leftCols(n));
     const Eigen::VectorXd by_time = jump * piece.by_time;
     Eigen::MatrixXd by_parameters = jump * piece.flow.rightCols(q) + piece.jump.rightCols(q);
     const std::size_t following = k + 1 < layout_.pieces() ? k + 1 : 0;

@@ -12,6 +12,10 @@
 
 namespace graze {
 
+/// Returns a matrix of derivatives of the state before the jump of a piece as those of the state after it. Of many
+/// states a jump changes few.
+Eigen::MatrixXd jump_times(const OrbitEvaluation::Piece& piece, const Eigen::MatrixXd& derivatives);
+
 /// Rates of end conditions below this share of their typical rate are round-off.
 inline constexpr double least_rate = 1e-11;
 

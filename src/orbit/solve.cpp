@@ -119,6 +119,10 @@ std::string_view name_of(OrbitOutcome outcome) {
     return enumerator_name(names, outcome, "");
 }
 
+std::size_t number_of_multipliers(const OrbitSolution& solution) {
+    return solution.multipliers.size() + solution.other_multipliers;
+}
+
 bool is_stable(const OrbitSolution& solution) {
     if (is_rest(solution.orbit.signature))
         return solution.outcome == OrbitOutcome::converged &&
@@ -128,9 +132,9 @@ bool is_stable(const OrbitSolution& solution) {
     const auto& multipliers = solution.multipliers;
     constexpr double off_circle = 1e-6; // a double multiplier is known only to the root of its uncertainty
     if (solution.neutral > 0)
-        return !multipliers.empty() &&
+        return number_of_multipliers(solution) > 0 &&
                std::ranges::all_of(multipliers, [](auto one) { return std::abs(one) < 1 + off_circle; });
-    return !multipliers.empty() &&
+    return number_of_multipliers(solution) > 0 &&
            std::ranges::all_of(multipliers, [](auto one) { return std::abs(one) < 1 - on_circle; });
 }
 
@@ -196,16 +200,22 @@ OrbitOutcome solve_equations(OrbitEquations& equations, Eigen::VectorXd& unknown
 }
 
 void describe_orbit(OrbitEquations& equations, const OrbitEvaluation& at, OrbitSolution& solution,
-                    const std::optional<HeldLimit>& held) {
+                    const std::optional<HeldLimit>& held, Spectrum spectrum) {
     solution.residual = at.residual;
     if (equations.homoclinic_ends()) // there is no section map
         solution.eigenvalues = at.eigenvalues;
     else if (equations.cycle_ends())
         solution.multipliers = equations.cycle_ends()->cycle().multipliers();
-    else
+    else if (auto leading = spectrum == Spectrum::leading ? leading_multipliers(equations, at) : std::nullopt) {
+        solution.multipliers = std::move(leading->values);
+        solution.other_multipliers = leading->others;
+        solution.others_within = leading->others_within;
+    } else {
         solution.multipliers = floquet_multipliers(equations, at);
+    }
     if (equations.symmetry()) {
         solution.half_multipliers = solution.multipliers;
+        solution.others_within *= solution.others_within;
         for (auto& multiplier : solution.multipliers)
             multiplier *= multiplier;
     }

@@ -84,6 +84,8 @@ nlohmann::json orbit_json(const StoredRun& run, const OrbitRecord& record) {
     facts.add("residual", solution.residual);
     if (solution.error)
         facts.add("error", *solution.error);
+    if (solution.other_multipliers > 0)
+        facts.add("multipliers", multipliers_text(solution, 6));
     facts.add("symmetry", orbit.symmetry ? model.symmetries.at(*orbit.symmetry).name : "");
     facts.add("not admissible", solution.certificate.reason);
     facts.add("detail", record.point.detail);

@@ -52,6 +52,10 @@ JsonObject orbit_heading(const ResultFile& file, const StoredOrbit& stored) {
     heading.add("signature", to_string(model, solution.orbit.signature));
     heading.add("symmetry", solution.orbit.symmetry ? model.symmetries[*solution.orbit.symmetry].name : "");
     heading.add("multipliers", list_of(solution.multipliers));
+    if (solution.other_multipliers > 0) {
+        heading.add("other_multipliers", static_cast<double>(solution.other_multipliers));
+        heading.add("others_within", solution.others_within);
+    }
     heading.add("half_multipliers", list_of(solution.half_multipliers));
     heading.add("eigenvalues", list_of(solution.eigenvalues));
     heading.add("stable", record.stable ? 1.0 : 0.0);

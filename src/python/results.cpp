@@ -70,6 +70,8 @@ py::dict facts_of_record(const RunRecord& run, const OrbitRecord& record) {
     object["period"] = solution.orbit.period();
     object["symmetric"] = solution.orbit.symmetry.has_value();
     object["multipliers"] = array_of_multipliers(solution.multipliers);
+    object["other_multipliers"] = solution.other_multipliers;
+    object["others_within"] = solution.others_within;
     object["half_multipliers"] = array_of_multipliers(solution.half_multipliers);
     object["eigenvalues"] = array_of_multipliers(solution.eigenvalues);
     object["outcome"] = std::string(name_of(solution.outcome));

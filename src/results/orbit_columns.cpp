@@ -171,6 +171,24 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
          [](const Context&, const Record& r, CellWriter& cell) {
              r.torus ? cell.nothing() : cell.whole(unstable_directions(r.point.solution));
          }},
+        {added({"other_multipliers", ColumnType::whole, ColumnUnit::none, true}),
+         [](const Context&, const Record& r, CellWriter& cell) {
+             const OrbitSolution& solution = r.point.solution;
+             solution.other_multipliers > 0 ? cell.whole(solution.other_multipliers) : cell.nothing();
+         },
+         [](const Context&, Record& r, CellReader& cell) {
+             if (!cell.is_nothing())
+                 r.point.solution.other_multipliers = cell.whole();
+         }},
+        {added(shown("others_within")),
+         [](const Context&, const Record& r, CellWriter& cell) {
+             const OrbitSolution& solution = r.point.solution;
+             solution.other_multipliers > 0 ? cell.real(solution.others_within) : cell.nothing();
+         },
+         [](const Context&, Record& r, CellReader& cell) {
+             if (!cell.is_nothing())
+                 r.point.solution.others_within = cell.number();
+         }},
         {added(shown("slowest_approach")), // this from the segments again
          [](const Context&, const Record& r, CellWriter& cell) { cell.real(slowest_approach(r.point.solution)); }},
         truth_column(shown("admissible"), [](auto& r) { return &r.point.solution.certificate.admissible; }),

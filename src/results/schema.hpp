@@ -14,7 +14,7 @@ namespace graze {
 /// Format of result files that this version writes: to be raised with every column that comes, goes or changes. A
 /// column that comes is `added` (see columns.hpp): older files lack it, and it is read from them as absent. One that is
 /// called otherwise says its former name.
-constexpr int result_format = 10;
+constexpr int result_format = 11;
 /// The oldest format whose readers can read what this version writes: with columns and tables that they do not know,
 /// but nothing that they need changed or gone. To be raised to `result_format` only where something changes or goes.
 constexpr int oldest_reader = 7;

@@ -123,7 +123,12 @@ std::string multipliers_text(const OrbitSolution& solution, int digits) {
     if (solution.outcome != OrbitOutcome::converged || is_rest(solution.orbit.signature) ||
         is_homoclinic(solution.orbit.signature))
         return "";
-    return solution.multipliers.empty() ? "undefined" : multipliers_text(solution.multipliers, digits);
+    if (solution.other_multipliers == 0)
+        return solution.multipliers.empty() ? "undefined" : multipliers_text(solution.multipliers, digits);
+    const std::string others =
+        fmt::format("{} {}within {:.3g}", solution.other_multipliers, solution.multipliers.empty() ? "" : "others ",
+                    std::nextafter(solution.others_within + 5e-4, 1.0));
+    return solution.multipliers.empty() ? others : multipliers_text(solution.multipliers, digits) + ", " + others;
 }
 
 bool is_unphysical(const OrbitRecord& record) {

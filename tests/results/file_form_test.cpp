@@ -107,26 +107,26 @@ TEST_F(FileForm, ReadsNewerFilesThatHaveOnlyAddedSomething) {
            "ALTER TABLE branch_b RENAME COLUMN added_later TO added_later_2; "
            "ALTER TABLE branch_b ADD COLUMN added_later REAL DEFAULT 99; "
            "UPDATE columns SET column_name = 'added_later_2' WHERE run = 'b' AND place = 'value'; "
-           "PRAGMA user_version = 11");
+           "PRAGMA user_version = 12");
     const ResultFile file(path, ResultFile::Access::read);
-    EXPECT_EQ(file.format(), 11);
+    EXPECT_EQ(file.format(), 12);
     expect_all(file);
     EXPECT_THAT(file.missing(), IsEmpty());
     auto rows = StoredRun(file, "b", {}).rows({.values = {"added_later"}});
     ASSERT_TRUE(rows.next());
     EXPECT_EQ(rows.number(0), 0.5);
     EXPECT_THAT(message_of([&] { ResultFile(path, ResultFile::Access::write); }),
-                HasSubstr("has format 11, which this version of graze reads, but does not write"));
+                HasSubstr("has format 12, which this version of graze reads, but does not write"));
 }
 
 TEST_F(FileForm, RefusesNewerFilesThatHaveChangedSomething) {
     for (const char* reader :
-         {"UPDATE meta SET value = '11' WHERE key = 'oldest reader'",
+         {"UPDATE meta SET value = '12' WHERE key = 'oldest reader'",
           "UPDATE meta SET value = 'x' WHERE key = 'oldest reader'", "DELETE FROM meta WHERE key = 'oldest reader'"}) {
-        change(std::string("PRAGMA user_version = 11; ") + reader);
+        change(std::string("PRAGMA user_version = 12; ") + reader);
         for (const auto access : {ResultFile::Access::read, ResultFile::Access::write})
             EXPECT_THAT(message_of([&] { ResultFile(path, access); }),
-                        HasSubstr("has format 11, this version of graze knows"))
+                        HasSubstr("has format 12, this version of graze knows"))
                 << reader;
         change("INSERT OR REPLACE INTO meta VALUES('oldest reader', '7')");
     }

@@ -48,8 +48,11 @@ struct OrbitSolution {
     double residual = 0;         ///< largest residual of the equations, relative to the scale of each unknown
     std::optional<double> error; ///< estimated error of the unknowns, relative to their scales
     /// Floquet multipliers of the section map of the whole orbit, largest first; empty where an event is reached with
-    /// zero speed.
+    /// zero speed. Along branches of models with more than 256 states only those outside a circle, if that suffices:
+    /// `other_multipliers` are not computed, but lie within the radius `others_within`, which is below 1.
     std::vector<std::complex<double>> multipliers;
+    std::size_t other_multipliers = 0;
+    double others_within = 0;
     /// Of an equilibrium, or of the saddle of a homoclinic orbit: the eigenvalues of the linearised field, largest real
     /// part first.
     std::vector<std::complex<double>> eigenvalues;
@@ -61,6 +64,8 @@ struct OrbitSolution {
     std::size_t neutral = 0;
 };
 
+/// Returns the number of multipliers, computed or not; 0 where an event is reached with zero speed.
+std::size_t number_of_multipliers(const OrbitSolution& solution);
 /// True when all multipliers have magnitudes below 1 - 1e-8, the margin of round-off at a bifurcation; of an
 /// equilibrium: when the real parts of all eigenvalues are below -1e-10 times the largest magnitude. False where they
 /// are not known.
