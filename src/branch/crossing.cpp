@@ -1,5 +1,6 @@
 #include "branch/crossing.hpp"
 
+#include "base/signs.hpp"
 #include "base/special_numbers.hpp"
 #include "orbit/eigen_index.hpp"
 
@@ -89,7 +90,7 @@ TestValue nearer(const TestValue& end, const TestValue& within, const std::funct
     double share = behind * std::sqrt(within.value / (within.value - end.value));
     for (; share < far; share *= behind) {
         const double fraction = within.fraction + share * (end.fraction - within.fraction), value = value_at(fraction);
-        if (value * end.value > 0)
+        if (have_same_sign(value, end.value))
             return {fraction, value};
     }
     return end;
@@ -114,7 +115,7 @@ std::vector<Sample> samples_around(Continuation& continuation, const PointTest& 
 std::optional<std::pair<double, double>> zeros_around(const std::vector<Sample>& samples, double within) {
     const double low = samples.front().fraction, high = samples.back().fraction;
     const bool negative = samples.front().value < 0;
-    if (samples.front().value * samples.back().value < 0 || (value_at(samples, within) < 0) == negative)
+    if (have_opposite_signs(samples.front().value, samples.back().value) || (value_at(samples, within) < 0) == negative)
         return std::nullopt;
     return std::pair(zero_of(samples, low, within, negative), zero_of(samples, within, high, !negative));
 }
@@ -154,7 +155,7 @@ std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, con
         const std::vector<Sample> samples = samples_around(continuation, test, guess, reach, offsets);
         if (samples.size() < fewest_samples)
             return std::nullopt;
-        if (samples.front().value * samples.back().value < 0) {
+        if (have_opposite_signs(samples.front().value, samples.back().value)) {
             const double zero =
                 zero_of(samples, samples.front().fraction, samples.back().fraction, samples.front().value < 0);
             if (std::abs(zero - guess) < reach * settled) {

@@ -1,3 +1,4 @@
+#include "base/signs.hpp"
 #include "branch/boundary_equilibrium.hpp"
 #include "branch/bounds.hpp"
 #include "branch/branch_follower.hpp"
@@ -168,7 +169,7 @@ bool EquilibriumFollower::take_step(DescribedEquilibrium& before) {
             return end(BranchOutcome::undefined, "the model is not defined beyond");
         here_ = std::move(*there);
         found_ = locator_->locate_all(before, here_);
-        const bool crossed = before.at.determinant * here_.at.determinant < 0;
+        const bool crossed = have_opposite_signs(before.at.determinant, here_.at.determinant);
         const bool jumped = crossed && std::ranges::none_of(found_, [](const SpecialPoint& one) {
                                 return one.type == PointType::branch_point || one.type == PointType::bound;
                             });

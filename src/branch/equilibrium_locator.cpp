@@ -1,5 +1,6 @@
 #include "branch/equilibrium_locator.hpp"
 
+#include "base/signs.hpp"
 #include "base/special_numbers.hpp"
 #include "branch/boundary_equilibrium.hpp"
 #include "branch/bounds.hpp"
@@ -53,9 +54,9 @@ std::vector<EquilibriumLocator::Bracket> EquilibriumLocator::brackets_of(std::si
         return {};
     if (here.type == PointType::bound && !(low.value > 0))
         return {};
-    if (low.value * high.value < 0 || (high.value == 0 && low.value != 0))
+    if (have_opposite_signs(low.value, high.value) || (high.value == 0 && low.value != 0))
         return {{low, high}};
-    if (!(low.value * high.value > 0))
+    if (!have_same_sign(low.value, high.value))
         return {};
     const double begin = continuation_->previous().arclength, length = continuation_->point().arclength - begin;
     const auto dip = history_.possible_dip(test, begin, length, low, high);

@@ -2,6 +2,7 @@
 
 #include "base/concatenated.hpp"
 #include "base/linear_systems.hpp"
+#include "base/signs.hpp"
 #include "branch/bounds.hpp"
 #include "branch/inserted_contact.hpp"
 #include "branch/orbit_problem.hpp"
@@ -213,8 +214,9 @@ bool have_bifurcation_between(const Simulation& simulation, const Orbit& one, co
     OrbitEvaluation here = first.evaluation(), there = second.evaluation();
     return first.layout().pieces() == second.layout().pieces() && first.evaluate(first.unknowns_of(one), here) &&
            second.evaluate(second.unknowns_of(other), there) &&
-           (here.system.periodic_determinant().value * there.system.periodic_determinant().value < 0 ||
-            here.system.antiperiodic_determinant().value * there.system.antiperiodic_determinant().value < 0);
+           (have_opposite_signs(here.system.periodic_determinant().value, there.system.periodic_determinant().value) ||
+            have_opposite_signs(here.system.antiperiodic_determinant().value,
+                                there.system.antiperiodic_determinant().value));
 }
 
 /// Cuts off a motion where it returns to the contact that the orbit shall not have. It may reach it early, by a time

@@ -1,4 +1,5 @@
 #include "branch/missed_points.hpp"
+#include "base/signs.hpp"
 
 #include <fmt/format.h>
 
@@ -110,7 +111,7 @@ private:
         const std::vector<BranchTest>&first = low.here.tests, &last = high.here.tests;
         std::vector<std::size_t> changed;
         for (std::size_t i = 0; i < first.size() && first.size() == last.size(); ++i)
-            if (crossing_at(first[i].type) > 0 && first[i].value * last[i].value < 0)
+            if (crossing_at(first[i].type) > 0 && have_opposite_signs(first[i].value, last[i].value))
                 changed.push_back(i);
         return changed;
     }

@@ -1,5 +1,6 @@
 #include "branch/branch_follower.hpp"
 
+#include "base/signs.hpp"
 #include "branch/bounds.hpp"
 #include "branch/chatter_end.hpp"
 #include "branch/first_step.hpp"
@@ -271,7 +272,7 @@ private:
     bool has_jumped() {
         const Continuation& continuation = state_.continuation();
         return !state_.settings().kept && !returned_ &&
-               continuation.previous().determinant * continuation.point().determinant < 0 &&
+               have_opposite_signs(continuation.previous().determinant, continuation.point().determinant) &&
                std::none_of(found_.begin(), found_.end(), [](const SpecialPoint& one) {
                    return one.type == PointType::branch_point || kind_of(one.type).limits;
                });

@@ -1,5 +1,6 @@
 #include "branch/point_locator.hpp"
 
+#include "base/signs.hpp"
 #include "base/special_numbers.hpp"
 #include "branch/bounds.hpp"
 #include "branch/missed_points.hpp"
@@ -212,9 +213,9 @@ std::vector<PointLocator::Bracket> PointLocator::brackets_of(std::size_t test, d
     // A branch that begins on a bound may lie beyond it by round-off.
     if (now.type == PointType::bound && !(low.value > 0))
         return {};
-    if (low.value * high.value < 0 || appeared || vanished || (high.value == 0 && low.value != 0))
+    if (have_opposite_signs(low.value, high.value) || appeared || vanished || (high.value == 0 && low.value != 0))
         return {{low, high}};
-    if (!(low.value * high.value > 0))
+    if (!have_same_sign(low.value, high.value))
         return {};
     const LastStep step = state_->last_step();
     const auto dip = history_.possible_dip(test, step.from, step.length, low, high);
@@ -257,7 +258,7 @@ std::optional<SpecialPoint> PointLocator::locate(std::size_t test, const TestVal
     bool complete = true;
     std::optional<SpecialPoint> special = locate_zero(test, low, high, complete);
     const Continuation& continuation = state_->continuation();
-    const bool crossed = continuation.previous().determinant * continuation.point().determinant < 0;
+    const bool crossed = have_opposite_signs(continuation.previous().determinant, continuation.point().determinant);
     if (!crossed || complete)
         return special;
     if (std::optional<SpecialPoint> beside = locate_by_crossing(test, low, high))
