@@ -288,10 +288,14 @@ void test_torus(const TestedPoint& point, std::vector<BranchTest>& tests) {
 }
 
 bool confirm_torus(BranchState& state, SpecialPoint& special, const BranchTest&) {
-    const OrbitProblem& problem = state.problem();
+    if (!special.located || !has_pair_on_circle(state, special))
+        return false; // as where two real multipliers are reciprocal
+    OrbitProblem& problem = state.problem();
+    if (!problem.evaluate(problem.unknowns_of(special.solution.orbit))) // multipliers may have been compared beside it
+        return true;
     if (const auto form = torus_criticality(problem.equations(), problem.evaluation(), state.second_variation()))
         special.detail = form_in_words(*form, "d", -1, "two pairs are one");
-    return special.located && has_pair_on_circle(state, special);
+    return true;
 }
 
 bool confirm_beside_flip(BranchState& state, SpecialPoint& special, const BranchTest&) {
