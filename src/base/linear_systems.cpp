@@ -33,11 +33,6 @@ Scalar PartialLU<Scalar>::determinant() const {
 }
 
 template <class Scalar>
-double PartialLU<Scalar>::reciprocal_condition() const {
-    return factors_.rcond();
-}
-
-template <class Scalar>
 bool PartialLU<Scalar>::is_regular() const {
     return factors_.rcond() > std::numeric_limits<double>::epsilon();
 }

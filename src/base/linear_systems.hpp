@@ -25,8 +25,6 @@ public:
     Vector solve_transposed(const Vector& right) const;
     Matrix inverse() const;
     Scalar determinant() const;
-    /// Returns an estimate of the reciprocal of the condition number, in the 1-norm.
-    double reciprocal_condition() const;
     /// True when the matrix, which may then have been singular, is regular to working precision.
     bool is_regular() const;
 

@@ -4,6 +4,7 @@
 #include "base/special_numbers.hpp"
 #include "branch/boundary_equilibrium.hpp"
 #include "branch/bounds.hpp"
+#include "branch/crossing.hpp"
 #include "branch/branch_state.hpp"
 
 #include <fmt/format.h>
@@ -59,19 +60,14 @@ std::vector<EquilibriumLocator::Bracket> EquilibriumLocator::brackets_of(std::si
     if (!have_same_sign(low.value, high.value))
         return {};
     const double begin = continuation_->previous().arclength, length = continuation_->point().arclength - begin;
-    const auto dip = history_.possible_dip(test, begin, length, low, high);
-    if (!dip)
-        return {};
     // Smaller values than this share of those at the ends are round-off, as where a test only touches zero.
     constexpr double round_off = 1e-10;
     const double least = std::max(noise, round_off * std::min(std::abs(low.value), std::abs(high.value)));
-    const auto zeros = dip_between(low, high, *dip, least, [&](double fraction) {
+    const auto dip = history_.find_dip(test, begin, length, low, high, least, [&](double fraction) {
         const auto there = describe_between(fraction);
         return there ? there->tests[test].value : not_a_number;
     });
-    if (!zeros)
-        return {};
-    return {{zeros->before, zeros->within}, {zeros->within, zeros->behind}};
+    return dip ? std::vector<Bracket>{{dip->before, dip->within}, {dip->within, dip->behind}} : std::vector<Bracket>();
 }
 
 std::optional<DescribedEquilibrium> EquilibriumLocator::describe_between(double fraction) {

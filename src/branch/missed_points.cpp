@@ -1,4 +1,5 @@
 #include "branch/missed_points.hpp"
+
 #include "base/signs.hpp"
 
 #include <fmt/format.h>

@@ -110,17 +110,18 @@ bool OrbitProblem::solve(std::span<const double> row, double right, bool homogen
 }
 
 bool OrbitProblem::chord(std::span<const double> u, std::span<const double> row, std::span<double> step) {
-    Eigen::VectorXd result;
-    if (at_.unknowns.size() == 0 ||
-        !equations_->chord(at_, closed_by(row), vector_of(u), Eigen::VectorXd::Zero(1), result))
-        return false;
-    entries_of(step) = result;
-    return true;
+    return at_.unknowns.size() > 0 && correct(vector_of(u), row, step, nullptr);
 }
 
 bool OrbitProblem::correction_by(ModeFlow& flow, std::span<const double> row, std::span<double> step) {
+    return correct(at_.unknowns, row, step, &flow);
+}
+
+/// Computes the correction at other unknowns with the derivatives that are known. @param flow of the equations if null
+bool OrbitProblem::correct(const Eigen::VectorXd& unknowns, std::span<const double> row, std::span<double> step,
+                           ModeFlow* flow) {
     Eigen::VectorXd result;
-    if (!equations_->chord(at_, closed_by(row), at_.unknowns, Eigen::VectorXd::Zero(1), result, &flow))
+    if (!equations_->chord(at_, closed_by(row), unknowns, Eigen::VectorXd::Zero(1), result, flow))
         return false;
     entries_of(step) = result;
     return true;

@@ -93,6 +93,7 @@ public:
 private:
     bool evaluate_held();
     const OrbitEquations::Closed& closed_by(std::span<const double> row);
+    bool correct(const Eigen::VectorXd& unknowns, std::span<const double> row, std::span<double> step, ModeFlow* flow);
 
     std::unique_ptr<OrbitEquations> equations_;
     OrbitEvaluation at_;

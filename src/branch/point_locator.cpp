@@ -218,17 +218,13 @@ std::vector<PointLocator::Bracket> PointLocator::brackets_of(std::size_t test, d
     if (!have_same_sign(low.value, high.value))
         return {};
     const LastStep step = state_->last_step();
-    const auto dip = history_.possible_dip(test, step.from, step.length, low, high);
-    if (!dip)
-        return {};
     const auto value_at = [&](double fraction) {
         const auto there = state_->describe_between(fraction);
         return there ? there->tests[test].value : not_a_number;
     };
-    const auto zeros = dip_between(low, high, *dip, unknown_values(now, low, high), value_at);
-    if (!zeros)
-        return {};
-    return {{zeros->before, zeros->within}, {zeros->within, zeros->behind}};
+    const auto dip =
+        history_.find_dip(test, step.from, step.length, low, high, unknown_values(now, low, high), value_at);
+    return dip ? std::vector<Bracket>{{dip->before, dip->within}, {dip->within, dip->behind}} : std::vector<Bracket>();
 }
 
 /// Before the first step no point is known: a point within the step takes its place.

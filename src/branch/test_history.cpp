@@ -18,14 +18,16 @@ void TestHistory::add(double arclength, const std::vector<BranchTest>& tests) {
         points_.pop_back();
 }
 
-std::optional<double> TestHistory::possible_dip(std::size_t test, double begin, double length, const TestValue& low,
-                                                const TestValue& high) const {
+std::optional<Dip> TestHistory::find_dip(std::size_t test, double begin, double length, const TestValue& low,
+                                         const TestValue& high, double noise,
+                                         const std::function<double(double)>& value_at) const {
     const auto value = [&](std::size_t place) {
         if (place >= points_.size() || test >= points_[place].values.size())
             return TestValue{not_a_number, not_a_number};
         return TestValue{(points_[place].arclength - begin) / length, points_[place].values[test]};
     };
-    return graze::possible_dip(value(1), value(0), low, high);
+    const auto place = possible_dip(value(1), value(0), low, high);
+    return place ? dip_between(low, high, *place, noise, value_at) : std::nullopt;
 }
 
 } // namespace graze

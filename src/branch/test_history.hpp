@@ -1,9 +1,10 @@
 #pragma once
 
-#include "branch/crossing.hpp"
 #include "branch/point_kind.hpp"
+#include "branch/test_dip.hpp"
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -17,10 +18,12 @@ public:
     bool is_empty() const { return points_.empty(); }
     /// Adds the start of the last step, before the next step. @param arclength of the branch there
     void add(double arclength, const std::vector<BranchTest>& tests);
-    /// Returns the place of a possible dip between the ends of a step, as a fraction of it; see graze::possible_dip.
+    /// Returns values of a test before, between and behind two of its zeros within a step, at whose ends it has the
+    /// same sign; see `possible_dip` and `dip_between`.
     /// @param begin, length arclength at the start of the step, and of it
-    std::optional<double> possible_dip(std::size_t test, double begin, double length, const TestValue& low,
-                                       const TestValue& high) const;
+    std::optional<Dip> find_dip(std::size_t test, double begin, double length, const TestValue& low,
+                                const TestValue& high, double noise,
+                                const std::function<double(double)>& value_at) const;
 
 private:
     struct Point {
