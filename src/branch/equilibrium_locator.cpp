@@ -4,8 +4,8 @@
 #include "base/special_numbers.hpp"
 #include "branch/boundary_equilibrium.hpp"
 #include "branch/bounds.hpp"
-#include "branch/crossing.hpp"
 #include "branch/branch_state.hpp"
+#include "branch/crossing.hpp"
 
 #include <fmt/format.h>
 
