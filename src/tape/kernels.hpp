@@ -2,7 +2,7 @@
 
 // The kernels: recurrences for the coefficients of power series (Griewank and Walther 2008, table 13.2), one source
 // for all kinds of lanes and all instruction sets. To be included only by the translation unit of an instruction
-// set. Loops over coefficients are unrolled, as templates on the order.
+// set. Loops over coefficients are unrolled up to `highest_unrolled`, as templates on the order.
 //
 // A jet of one lane is limited by latency: each coefficient waits for coefficients of the same order. Kernels therefore
 // first sum everything that is known from lower orders; a coefficient of the same order then needs one or two more
@@ -78,19 +78,65 @@ GRAZE_INLINE double convolution_by_four(const double* a, const double* b) {
 }
 #endif
 
+/// Above this order sums are loops: unrolled sums would be most of what there is to compile, for orders that are used only
+/// where a user asks for them. The chosen orders are at most 20. It is odd, so that pairs of orders are complete. Of the
+/// x86-64 processors only those of before 2013 lack fused operations: they have loops almost throughout.
+#if defined(__x86_64__) && !defined(__FMA__)
+inline constexpr int highest_unrolled = 3;
+#else
+inline constexpr int highest_unrolled = 21;
+#endif
+
+template <class V>
+struct Factors {
+    V left, right;
+};
+/// Returns the sum of products, as `accumulate` and `total` have it. @param terms at least 4 @param factors those of term j
+template <class V, class FactorsOf>
+GRAZE_INLINE V sum_in_loop(Order terms, const FactorsOf& factors) {
+    V sums[4];
+    for (Order i = 0; i < 4; ++i) {
+        const Factors<V> term = factors(i);
+        sums[i] = term.left * term.right;
+    }
+    const auto add = [&](Order i, Order j) __attribute__((always_inline)) {
+        const Factors<V> term = factors(j);
+        sums[i] = multiply_add(term.left, term.right, sums[i]);
+    };
+    Order j = 4;
+    for (; j + 4 <= terms; j += 4)
+        for (Order i = 0; i < 4; ++i)
+            add(i, j + i);
+    for (Order i = 0; j < terms; ++i, ++j)
+        add(i, j);
+    return total<4>(sums);
+}
+template <int k, int terms>
+inline constexpr bool in_loop = (k > highest_unrolled) && (terms >= 4);
+
+template <class V>
+[[gnu::noinline]] V long_convolution(const double* a, const double* b, Order k, Order terms) {
+    return sum_in_loop<V>(
+        terms, [&](Order j) __attribute__((always_inline)) { return Factors<V>{at<V>(a, j + 1), at<V>(b, k - 1 - j)}; });
+}
+
 /// Sum of a[j] b[k-j], 0 < j <= terms.
 template <class V, int k, int terms = k - 1>
 GRAZE_INLINE V convolution(const double* a, const double* b) {
+    if constexpr (in_loop<k, terms>) {
+        return long_convolution<V>(a, b, k, terms);
+    } else {
 #if defined(__FMA__)
-    if constexpr (Numbers<V>::width == 1 && terms >= 4)
-        return convolution_by_four<k, terms>(a, b);
+        if constexpr (Numbers<V>::width == 1 && terms >= 4)
+            return convolution_by_four<k, terms>(a, b);
 #endif
-    V sums[4];
-    [&]<int... j>(Indices<j...>) __attribute__((always_inline)) {
-        (accumulate<j>(sums, at<V>(a, j + 1), at<V>(b, k - 1 - j)), ...);
+        V sums[4];
+        [&]<int... j>(Indices<j...>) __attribute__((always_inline)) {
+            (accumulate<j>(sums, at<V>(a, j + 1), at<V>(b, k - 1 - j)), ...);
+        }
+        (std::make_integer_sequence<int, terms>{});
+        return total<terms>(sums);
     }
-    (std::make_integer_sequence<int, terms>{});
-    return total<terms>(sums);
 }
 
 /// The convolutions of two orders at once. Ensembles are limited by loads, and this way each loaded coefficient serves
@@ -130,9 +176,11 @@ inline constexpr bool has_pairs = std::is_same_v<V, Ensemble>;
 /// odd one is stored in the place of its coefficient until then.
 inline constexpr int first_pair = 4;
 template <class V, int k>
-inline constexpr bool starts_pair = has_pairs<V> && (k >= first_pair) && (k % 2 == 0);
+inline constexpr bool in_pair = has_pairs<V> && (k >= first_pair) && (k <= highest_unrolled);
 template <class V, int k>
-inline constexpr bool ends_pair = has_pairs<V> && (k > first_pair) && (k % 2 == 1);
+inline constexpr bool starts_pair = in_pair<V, k> && (k % 2 == 0);
+template <class V, int k>
+inline constexpr bool ends_pair = in_pair<V, k> && (k % 2 == 1);
 
 /// Sum of a[j] a[k-j], 0 < j < k, given that over j < k/2; k >= 2.
 template <class V, int k>
@@ -320,17 +368,33 @@ struct Power {
                 put(o.result, k, slope * a);
             } else {
                 const V more = exponent + Numbers<V>::of(1);
-                V sums[4];
-                [&]<int... j>(Indices<j...>) __attribute__((always_inline)) {
-                    (accumulate<j>(sums,
-                                   multiply_add(more, Numbers<V>::of(j + 1), Numbers<V>::of(-k)) * at<V>(o.left, j + 1),
-                                   at<V>(o.result, k - 1 - j)),
-                     ...);
-                }
-                (std::make_integer_sequence<int, k - 1>{});
-                put(o.result, k, multiply_add(a, slope, total<k - 1>(sums) * reciprocal * inverse.of[k]));
+                put(o.result, k, multiply_add(a, slope, sum<k>(o, more) * reciprocal * inverse.of[k]));
             }
         }
+    }
+
+private:
+    template <int k>
+    GRAZE_INLINE static V sum(const KernelOperands& o, V more) {
+        if constexpr (in_loop<k, k - 1>) {
+            return long_sum(o, more, k);
+        } else {
+            V sums[4];
+            [&]<int... j>(Indices<j...>) __attribute__((always_inline)) {
+                (accumulate<j>(sums, weighted(o, more, k, j), at<V>(o.result, k - 1 - j)), ...);
+            }
+            (std::make_integer_sequence<int, k - 1>{});
+            return total<k - 1>(sums);
+        }
+    }
+    [[gnu::noinline]] static V long_sum(const KernelOperands& o, V more, Order k) {
+        return sum_in_loop<V>(
+            k - 1, [&](Order j) __attribute__((always_inline)) {
+                return Factors<V>{weighted(o, more, k, j), at<V>(o.result, k - 1 - j)};
+            });
+    }
+    GRAZE_INLINE static V weighted(const KernelOperands& o, V more, Order k, Order j) {
+        return multiply_add(more, Numbers<V>::of(double(j + 1)), Numbers<V>::of(double(-k))) * at<V>(o.left, j + 1);
     }
 };
 
