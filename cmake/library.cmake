@@ -54,6 +54,7 @@ foreach(folder IN LISTS GRAZE_FOLDERS)
     endif()
     set(before_${folder} ${earlier})
 endforeach()
+target_compile_definitions(graze_tape PRIVATE ${kernel_definitions})
 # What is linked with the folder of the kernels is linked with these as well.
 target_sources(graze_tape INTERFACE $<TARGET_OBJECTS:graze_kernels>)
 target_sources(graze PRIVATE $<TARGET_OBJECTS:graze_kernels>)

@@ -4,41 +4,43 @@
 
 namespace graze {
 
-template <class Scalar>
-PartialLU<Scalar>::PartialLU(const Matrix& matrix) : factors_(matrix) {}
+PartialLU::PartialLU(const Eigen::MatrixXd& matrix) : factors_(matrix) {}
 
-template <class Scalar>
-auto PartialLU<Scalar>::solve(const Vector& right) const -> Vector {
+Eigen::VectorXd PartialLU::solve(const Eigen::VectorXd& right) const {
     return factors_.solve(right);
 }
 
-template <class Scalar>
-auto PartialLU<Scalar>::solve_columns(const Matrix& right) const -> Matrix {
+Eigen::MatrixXd PartialLU::solve_columns(const Eigen::MatrixXd& right) const {
     return factors_.solve(right);
 }
 
-template <class Scalar>
-auto PartialLU<Scalar>::solve_transposed(const Vector& right) const -> Vector {
+Eigen::VectorXd PartialLU::solve_transposed(const Eigen::VectorXd& right) const {
     return factors_.transpose().solve(right);
 }
 
-template <class Scalar>
-auto PartialLU<Scalar>::inverse() const -> Matrix {
+Eigen::MatrixXd PartialLU::inverse() const {
     return factors_.inverse();
 }
 
-template <class Scalar>
-Scalar PartialLU<Scalar>::determinant() const {
+double PartialLU::determinant() const {
     return factors_.determinant();
 }
 
-template <class Scalar>
-bool PartialLU<Scalar>::is_regular() const {
+bool PartialLU::is_regular() const {
     return factors_.rcond() > std::numeric_limits<double>::epsilon();
 }
 
-template class PartialLU<double>;
-template class PartialLU<std::complex<double>>;
+ComplexLU::ComplexLU(const Eigen::MatrixXcd& matrix) : factors_(matrix) {
+    factors_.setThreshold(0); // no pivot counts as zero
+}
+
+Eigen::VectorXcd ComplexLU::solve(const Eigen::VectorXcd& right) const {
+    return factors_.solve(right);
+}
+
+Eigen::VectorXcd ComplexLU::solve_transposed(const Eigen::VectorXcd& right) const {
+    return factors_.transpose().solve(right);
+}
 
 template <class Scalar>
 FullLU<Scalar>::FullLU(const Matrix& matrix) : factors_(matrix) {}
@@ -115,8 +117,8 @@ Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& matrix, const Eigen::Ve
     return factors.solve(right);
 }
 
-void make_triangular(Eigen::Ref<Eigen::MatrixXd> matrix) {
-    const Eigen::HouseholderQR<Eigen::Ref<Eigen::MatrixXd>> factors(matrix);
+void make_triangular(Eigen::MatrixXd& matrix) {
+    matrix = Eigen::HouseholderQR<Eigen::MatrixXd>(matrix).matrixQR();
 }
 
 Eigen::MatrixXd make_triangular_with(Eigen::MatrixXd& matrix, Eigen::MatrixXd& others) {

@@ -13,26 +13,32 @@ namespace graze {
 // names do the work.
 
 /// LU factors, with row pivoting, of a square matrix that is known to be regular.
-template <class Scalar>
 class PartialLU {
 public:
-    using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
-    using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
-
-    explicit PartialLU(const Matrix& matrix);
-    Vector solve(const Vector& right) const;
-    Matrix solve_columns(const Matrix& right) const;
-    Vector solve_transposed(const Vector& right) const;
-    Matrix inverse() const;
-    Scalar determinant() const;
+    explicit PartialLU(const Eigen::MatrixXd& matrix);
+    Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
+    Eigen::MatrixXd solve_columns(const Eigen::MatrixXd& right) const;
+    Eigen::VectorXd solve_transposed(const Eigen::VectorXd& right) const;
+    Eigen::MatrixXd inverse() const;
+    double determinant() const;
     /// True when the matrix, which may then have been singular, is regular to working precision.
     bool is_regular() const;
 
 private:
-    Eigen::PartialPivLU<Matrix> factors_;
+    Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
 };
-extern template class PartialLU<double>;
-extern template class PartialLU<std::complex<double>>;
+
+/// LU factors of a complex square matrix that is known to be regular. They have full pivoting: that of rows alone would
+/// be the only reason to compile products of complex matrices.
+class ComplexLU {
+public:
+    explicit ComplexLU(const Eigen::MatrixXcd& matrix);
+    Eigen::VectorXcd solve(const Eigen::VectorXcd& right) const;
+    Eigen::VectorXcd solve_transposed(const Eigen::VectorXcd& right) const;
+
+private:
+    Eigen::FullPivLU<Eigen::MatrixXcd> factors_;
+};
 
 /// LU factors, with full pivoting, of a square matrix that may be singular.
 template <class Scalar>
@@ -84,7 +90,7 @@ LeastSquares least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd&
 Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right,
                                   std::optional<double> threshold = {});
 /// Replaces the upper triangle of the matrix by its factor R; the entries below are then meaningless.
-void make_triangular(Eigen::Ref<Eigen::MatrixXd> matrix);
+void make_triangular(Eigen::MatrixXd& matrix);
 /// Makes the matrix, with more rows than columns, upper triangular by Householder reflections x - m (m^T x), |m|^2 = 2,
 /// and applies them to other columns. @return the vectors m, zero where no reflection was needed
 Eigen::MatrixXd make_triangular_with(Eigen::MatrixXd& matrix, Eigen::MatrixXd& others);

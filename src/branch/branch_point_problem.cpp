@@ -59,7 +59,7 @@ bool BranchPointProblem::solve_null_vectors() {
     bordered.topLeftCorner(rows, columns) = matrix_.leftCols(columns);
     bordered.topRightCorner(rows, 1) = border_;
     bordered.bottomLeftCorner(2, columns) = right_.transpose();
-    const PartialLU<double> lu(bordered);
+    const PartialLU lu(bordered);
     MatrixXd sides = MatrixXd::Zero(rows + 2, 2);
     sides.bottomRows(2).setIdentity();
     null_ = lu.solve_columns(sides).topRows(columns);

@@ -29,7 +29,7 @@ std::optional<FoldBorders::Null> FoldBorders::at(const Eigen::MatrixXd& field) c
     const Eigen::Index n = field.rows();
     Eigen::MatrixXd bordered(n + 1, n + 1);
     bordered << field / size_, rows_, columns_.transpose(), Eigen::MatrixXd::Zero(1, 1);
-    const PartialLU<double> factors(bordered);
+    const PartialLU factors(bordered);
     const Eigen::VectorXd unit = Eigen::VectorXd::Unit(n + 1, n);
     const Eigen::VectorXd right = factors.solve(unit), left = factors.solve_transposed(unit);
     if (!right.allFinite() || !left.allFinite())

@@ -51,7 +51,7 @@ std::optional<HopfForm> hopf_form(const EquilibriumEvaluation& at, const Equilib
     if (!real.is_invertible())
         return std::nullopt;
     form.mean = real.solve(-bilinear(at, q, q.conjugate()).real());
-    const PartialLU<Complex> turning(
+    const ComplexLU turning(
         Eigen::MatrixXcd(2.0 * i * form.frequency * Eigen::MatrixXcd::Identity(n, n) - at.field.cast<Complex>()));
     form.second = turning.solve(bilinear(at, q, q));
     const Eigen::VectorXd sizes = at.scales.head(n);

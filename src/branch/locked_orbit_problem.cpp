@@ -122,7 +122,7 @@ bool LockedOrbitProblem::solve(std::span<const double> row, double right, bool h
     if (!homogeneous)
         values.head(residuals_.size()) = -residuals_;
     values[values.size() - 1] = right;
-    const Eigen::VectorXd result = PartialLU<double>(bordered(row)).solve(values);
+    const Eigen::VectorXd result = PartialLU(bordered(row)).solve(values);
     if (determinant)
         *determinant = 1; // branch points are not looked for
     if (!result.allFinite())
@@ -145,7 +145,7 @@ Orbit LockedOrbitProblem::orbit() const {
 double LockedOrbitProblem::parameter_error(std::span<const double> tangent) const {
     Eigen::VectorXd unit = Eigen::VectorXd::Zero(matrix_.cols());
     unit[unit.size() - 1] = 1;
-    const Eigen::VectorXd answers = PartialLU<double>(bordered(row_of(tangent))).solve_transposed(unit);
+    const Eigen::VectorXd answers = PartialLU(bordered(row_of(tangent))).solve_transposed(unit);
     return scales_.back() * answers.head(residuals_.size()).cwiseAbs().sum();
 }
 
@@ -160,7 +160,7 @@ LockedOrbitProblem::Drift LockedOrbitProblem::drift(std::span<const double> tang
         -vector_of(tangent).head(actives).cwiseQuotient(setting_.scales(setting_.active));
     Eigen::VectorXd values = Eigen::VectorXd::Zero(matrix.cols());
     values.head(last) = -by_parameter;
-    Eigen::VectorXd answer = PartialLU<double>(matrix).solve(values);
+    Eigen::VectorXd answer = PartialLU(matrix).solve(values);
     Drift drift{answer[last], {}};
     answer[last] = 1 / scales_.back();
     // The motion moves on from return to return: along the circle it is elsewhere on it.

@@ -185,8 +185,8 @@ void null_vectors(const MatrixXcd& matrix, VectorXcd& right, VectorXcd& left) {
     const VectorXcd last = VectorXcd::Unit(count + 1, count);
     for (int repetition = 0; repetition < 2;
          ++repetition) { // the second pass uses the null vectors as well-conditioned borders
-        right = PartialLU<Complex>(bordered).solve(last).head(count).normalized();
-        left = PartialLU<Complex>(bordered.transpose()).solve(last).head(count).normalized();
+        right = ComplexLU(bordered).solve(last).head(count).normalized();
+        left = ComplexLU(bordered.transpose()).solve(last).head(count).normalized();
         bordered.col(count).head(count) = left.conjugate();
         bordered.row(count).head(count) = right.adjoint();
     }
@@ -216,7 +216,7 @@ std::optional<Criticality> cubic_coefficient(const OrbitEquations& equations, co
     if (!q.allFinite() || !expansion.second(q, with_q) || !expansion.third(left, q.real(), with_real, parts) ||
         (multiplier.imag() != 0 && !expansion.third(left, q.imag(), with_imaginary, parts)))
         return std::nullopt;
-    const PartialLU<Complex> at_rest(expansion.closed_by(1)), twice(expansion.closed_by(multiplier * multiplier));
+    const ComplexLU at_rest(expansion.closed_by(1)), twice(expansion.closed_by(multiplier * multiplier));
     const VectorXcd square = with_q * q, modulus = with_q * conjugate;
     const VectorXcd mean = -at_rest.solve(modulus), second = -twice.solve(square);
     // With q = a + i b, q q q* = (a a + b b) (a + i b), and F_2 is real.
@@ -303,7 +303,7 @@ std::optional<double> cusp_coefficient(const OrbitEquations& equations, const Or
     bordered.row(count).head(count) = fold.right.transpose();
     VectorXd square = VectorXd::Zero(count + 1);
     square.head(count) = -with_right.real() * fold.right;
-    const VectorXd correction = PartialLU<double>(bordered).solve(square).head(count);
+    const VectorXd correction = PartialLU(bordered).solve(square).head(count);
     const double cubic = third.real().dot(fold.right.transpose()) + 3 * fold.left.dot(with_right.real() * correction);
     const double result = -cubic / (6 * fold.product);
     return std::isfinite(result) ? std::optional(result) : std::nullopt;

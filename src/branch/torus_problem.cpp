@@ -164,7 +164,7 @@ bool TorusProblem::solve(std::span<const double> row, double right, bool homogen
         values[size - 2] = -phase_.dot(vector_of(at_).cwiseQuotient(scales));
     }
     values[size - 1] = right;
-    const Eigen::VectorXd result = PartialLU<double>(bordered).solve(values);
+    const Eigen::VectorXd result = PartialLU(bordered).solve(values);
     if (determinant)
         *determinant = 1; // branch points of tori are not looked for
     if (!result.allFinite())

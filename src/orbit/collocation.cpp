@@ -140,7 +140,7 @@ bool Collocation::follow(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEv
             at.problem = fmt::format("segment {} leaves the domain of its vector field", k + 1);
             return false;
         }
-        const Eigen::MatrixXd solution = PartialLU<double>(matrix).solve_columns(right);
+        const Eigen::MatrixXd solution = PartialLU(matrix).solve_columns(right);
         piece.inner.middleRows(first, m * n) = solution;
         changes *= basis.end[0];
         start *= basis.end[0];

@@ -56,7 +56,7 @@ Eigen::MatrixXd plane_of_close(const CycleSpectrum& others, double middle) {
     double nearest = std::abs(middle);
     for (const Complex one : others.all)
         nearest = std::min(nearest, std::abs(one - middle));
-    const PartialLU<double> shifted(first + middle * (1 + share * nearest / std::abs(middle)) * last);
+    const PartialLU shifted(first + middle * (1 + share * nearest / std::abs(middle)) * last);
     Eigen::MatrixXd starts = Eigen::MatrixXd::NullaryExpr(first.rows(), 2, [](Eigen::Index i, Eigen::Index j) {
         return std::cos(static_cast<double>(i) * (1.7 + static_cast<double>(j)) + 0.3);
     });

@@ -56,7 +56,7 @@ void apply_reflections(Eigen::VectorXd& vector, const Eigen::MatrixXd& mirrors) 
 /// The largest singular value of a regular matrix, and the inverse of the smallest: by power iterations, which
 /// underestimate both a little.
 struct Extremes {
-    Extremes(const Eigen::MatrixXd& matrix, const PartialLU<double>& factors) {
+    Extremes(const Eigen::MatrixXd& matrix, const PartialLU& factors) {
         constexpr int iterations = 4;
         const auto begin = Eigen::VectorXd::NullaryExpr(
             matrix.cols(), [](Eigen::Index i) { return std::cos(1.7 * static_cast<double>(i) + 0.3); });
@@ -76,7 +76,7 @@ struct Extremes {
 /// Returns the largest singular value of a regular matrix times the product of all but the smallest one: how much the
 /// determinant changes with a change of the matrix of its own size. Where the matrix is singular, by its singular
 /// values.
-double largest_minor(const Eigen::MatrixXd& matrix, const PartialLU<double>& factors, double determinant) {
+double largest_minor(const Eigen::MatrixXd& matrix, const PartialLU& factors, double determinant) {
     const auto [largest, inverse] = Extremes(matrix, factors);
     const double result = largest * std::abs(determinant) * inverse;
     if (determinant != 0 && std::isfinite(result))
@@ -172,7 +172,7 @@ CyclicSystem::Determinant CyclicSystem::determinant_closed_by(double closing) co
     if (n == 0)
         return {sign_, 0};
     const Eigen::MatrixXd matrix = final_.leftCols(n) + closing * final_.middleCols(n, n);
-    const PartialLU<double> factors(matrix);
+    const PartialLU factors(matrix);
     const double value = factors.determinant();
     return {sign_ * value, round_off * largest_minor(matrix, factors, value)};
 }
@@ -318,7 +318,7 @@ std::size_t CyclicSystem::undetermined() const {
     if (n > many_states && matrix.allFinite()) {
         constexpr double far = 100; // the extremes are estimates
         const Eigen::MatrixXd square = matrix.leftCols(n);
-        const auto [largest, inverse] = Extremes(square, PartialLU<double>(square));
+        const auto [largest, inverse] = Extremes(square, PartialLU(square));
         if (largest * inverse * far * rank_tolerance < 1)
             return 0;
     }

@@ -61,7 +61,7 @@ public:
     private:
         friend class CyclicSystem;
         FullLU<double> lu_;
-        std::optional<PartialLU<double>> large_lu_; ///< in its place, with many states
+        std::optional<PartialLU> large_lu_; ///< in its place, with many states
         /// Per segment: coefficients by which its equations enter the borders; empty: zero.
         std::vector<Eigen::MatrixXd> shares_;
         bool regular_ = false;

@@ -149,7 +149,7 @@ private:
         const Eigen::MatrixXd matrix = restricted(flow);
         if (matrix.size() == 0 || !matrix.allFinite())
             return false;
-        return !(matrix.norm() * PartialLU<double>(matrix).inverse().norm() < most_contraction);
+        return !(matrix.norm() * PartialLU(matrix).inverse().norm() < most_contraction);
     }
     /// Divides a piece into parts of which none contracts too much. The length of a part adapts to the last accepted
     /// one, down to a smallest length; where the integration fails, the piece stays undivided.

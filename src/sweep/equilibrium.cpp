@@ -239,15 +239,21 @@ bool EquilibriumFinder::find_basis(Equilibrium& equilibrium) const {
             return false;
         const double slowest = equilibrium.values.real().cwiseAbs().minCoeff();
         equilibrium.basis = schur->unitary;
+        equilibrium.inverse = schur->unitary.adjoint();
         double weight = 1;
         for (Eigen::Index i = 1; i < size; ++i) {
             const double coupling = schur->triangle.col(i).head(i).cwiseAbs().maxCoeff();
             if (coupling > nearly * slowest)
                 weight *= nearly * slowest / coupling;
             equilibrium.basis.col(i) *= weight;
+            equilibrium.inverse.row(i) /= weight;
         }
+    } else {
+        const ComplexLU factors(equilibrium.basis);
+        equilibrium.inverse.resize(size, size);
+        for (Eigen::Index i = 0; i < size; ++i)
+            equilibrium.inverse.col(i) = factors.solve(Eigen::VectorXcd::Unit(size, i));
     }
-    equilibrium.inverse = PartialLU<std::complex<double>>(equilibrium.basis).inverse();
     return equilibrium.inverse.allFinite();
 }
 

@@ -90,7 +90,7 @@ std::optional<Eigen::MatrixXd> scaled_inverse(const Eigen::MatrixXd& matrix, con
         return std::nullopt;
     scaled = rows.cwiseInverse().asDiagonal() * scaled;
     const Eigen::MatrixXd inverse =
-        scales.asDiagonal() * PartialLU<double>(scaled).inverse() * rows.cwiseInverse().asDiagonal();
+        scales.asDiagonal() * PartialLU(scaled).inverse() * rows.cwiseInverse().asDiagonal();
     return inverse.allFinite() ? std::optional(inverse) : std::nullopt;
 }
 

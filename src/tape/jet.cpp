@@ -19,9 +19,11 @@
 namespace graze {
 
 const KernelTable& kernel_table(LaneKind kind, [[maybe_unused]] InstructionSet set) {
-#if defined(__x86_64__)
+#if defined(GRAZE_WITH_AVX2)
     if (set == InstructionSet::avx2)
         return avx2::kernels(kind);
+#endif
+#if defined(GRAZE_WITH_AVX512)
     if (set == InstructionSet::avx512)
         return avx512::kernels(kind);
 #endif
@@ -29,9 +31,11 @@ const KernelTable& kernel_table(LaneKind kind, [[maybe_unused]] InstructionSet s
 }
 
 const TangentKernels& tangent_kernels(std::size_t directions, [[maybe_unused]] InstructionSet set) {
-#if defined(__x86_64__)
+#if defined(GRAZE_WITH_AVX2)
     if (set == InstructionSet::avx2)
         return avx2::tangent_kernels(directions);
+#endif
+#if defined(GRAZE_WITH_AVX512)
     if (set == InstructionSet::avx512)
         return avx512::tangent_kernels(directions);
 #endif
@@ -421,22 +425,24 @@ void TapeJet::find_disagreement(const Jet& end, const EndAllowance& allowance, s
 
 bool is_supported(InstructionSet set) {
 #if defined(__x86_64__)
-    const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+    [[maybe_unused]] const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
                           __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
-    const bool has_avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+    [[maybe_unused]] const bool has_avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
                             __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
                             __builtin_cpu_supports("avx512vl");
+#endif
     switch (set) {
+#if defined(GRAZE_WITH_AVX2)
     case InstructionSet::avx2:
         return has_avx2;
+#endif
+#if defined(GRAZE_WITH_AVX512)
     case InstructionSet::avx512:
         return has_avx2 && has_avx512;
-    default:
-        return true;
-    }
-#else
-    return set == InstructionSet::baseline;
 #endif
+    default:
+        return set == InstructionSet::baseline;
+    }
 }
 
 InstructionSet best_instruction_set() {

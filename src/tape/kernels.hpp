@@ -78,9 +78,9 @@ GRAZE_INLINE double convolution_by_four(const double* a, const double* b) {
 }
 #endif
 
-/// Above this order sums are loops: unrolled sums would be most of what there is to compile, for orders that are used only
-/// where a user asks for them. The chosen orders are at most 20. It is odd, so that pairs of orders are complete. Of the
-/// x86-64 processors only those of before 2013 lack fused operations: they have loops almost throughout.
+/// Above this order sums are loops: unrolled, they would be most of what there is to compile. Tolerances choose orders
+/// up to 20. The number is odd, so that pairs of orders are complete. The x86-64 processors without fused operations
+/// are those of before 2013: they have loops nearly throughout.
 #if defined(__x86_64__) && !defined(__FMA__)
 inline constexpr int highest_unrolled = 3;
 #else
@@ -91,7 +91,8 @@ template <class V>
 struct Factors {
     V left, right;
 };
-/// Returns the sum of products, as `accumulate` and `total` have it. @param terms at least 4 @param factors those of term j
+/// Returns the sum of products, as `accumulate` and `total` have it.
+/// @param terms at least 4 @param factors those of term j
 template <class V, class FactorsOf>
 GRAZE_INLINE V sum_in_loop(Order terms, const FactorsOf& factors) {
     V sums[4];
@@ -117,7 +118,9 @@ inline constexpr bool in_loop = (k > highest_unrolled) && (terms >= 4);
 template <class V>
 [[gnu::noinline]] V long_convolution(const double* a, const double* b, Order k, Order terms) {
     return sum_in_loop<V>(
-        terms, [&](Order j) __attribute__((always_inline)) { return Factors<V>{at<V>(a, j + 1), at<V>(b, k - 1 - j)}; });
+        terms, [&](Order j) __attribute__((always_inline)) {
+            return Factors<V>{at<V>(a, j + 1), at<V>(b, k - 1 - j)};
+        });
 }
 
 /// Sum of a[j] b[k-j], 0 < j <= terms.

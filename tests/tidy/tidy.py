@@ -2,9 +2,9 @@
 """Runs clang-tidy on all sources, several at once: what they include is parsed once and not for each. Also compiles every
 public header by itself.
 
-usage: tidy.py BUILD OUTPUT JOBS [OPTION...]
+usage: tidy.py BUILD OUTPUT JOBS [--recent] [OPTION...]
 
-BUILD has compile_commands.json; what is put together goes to OUTPUT. Sources whose own names collide are never put
+With --recent only of what was changed in the twelve hours before the newest commit, and since. BUILD has compile_commands.json; what is put together goes to OUTPUT. Sources whose own names collide are never put
 together; where that was not seen, a batch is looked at in halves. Options go to clang-tidy.
 """
 import concurrent.futures
@@ -89,7 +89,23 @@ def header_compiler(output):
     return compile_header
 
 
+def git(*words):
+    return subprocess.run(["git", "-C", str(ROOT), *words], capture_output=True, text=True, check=True).stdout
+
+
+def recently_changed():
+    """Files that commits of the last twelve hours before the newest one changed, and those that are not committed."""
+    begin = int(git("log", "-1", "--format=%ct")) - 12 * 3600
+    names = git("log", f"--since={begin}", "--name-only", "--format=").splitlines()
+    names += [line[3:] for line in git("status", "--porcelain", "--untracked-files=all").splitlines()]
+    return {ROOT / name for name in names if name}
+
+
 def main(build, output, jobs, options):
+    looked_at = None
+    if "--recent" in options:
+        options.remove("--recent")
+        looked_at = recently_changed()
     commands = json.loads((build / "compile_commands.json").read_text())
     own = {}
     alone = []
@@ -97,6 +113,8 @@ def main(build, output, jobs, options):
         source = pathlib.Path(command["file"])
         # Kernels are one text, compiled for several processors.
         if not source.is_relative_to(ROOT / "src") or source.name in ("jet_avx2.cpp", "jet_avx512.cpp"):
+            continue
+        if looked_at is not None and source not in looked_at:
             continue
         if source.name == "jet_baseline.cpp":
             alone.append(command)
@@ -106,7 +124,7 @@ def main(build, output, jobs, options):
     # Sources of a folder include the same headers.
     for _, files in itertools.groupby(own, lambda file: pathlib.Path(file).parent):
         batches += [[own[file] for file in batch] for batch in batches_of(list(files), MOST)]
-    headers = sorted((ROOT / "include").rglob("*.hpp"))
+    headers = [header for header in sorted((ROOT / "include").rglob("*.hpp")) if looked_at is None or header in looked_at]
     output.mkdir(parents=True, exist_ok=True)
     compile_header = header_compiler(output)
     clean = True
@@ -115,8 +133,9 @@ def main(build, output, jobs, options):
         for text, good in itertools.chain(looks, pool.map(compile_header, headers)):
             print(text, end="", flush=True)
             clean = clean and good
-    if not batches:
+    if not own and looked_at is None:
         sys.exit("there are no sources")
+    print(f"{len(own) + len(alone)} sources and {len(headers)} headers were looked at")
     sys.exit(0 if clean else 1)
 
 
