@@ -52,26 +52,26 @@ GRAZE_INLINE V total(const V (&sums)[4]) {
 
 #if defined(__FMA__)
 /// The same sum for one lane, with the partial sums in the lanes of a register: fewer loads, the same bits.
-template <int k, int terms>
-GRAZE_INLINE double convolution_by_four(const double* a, const double* b) {
+template <int k, int first, int terms>
+GRAZE_INLINE double sum_by_four(const double* a, const double* b) {
     const auto term = [&](int j) __attribute__((always_inline)) {
-        return _mm256_permute4x64_pd(_mm256_loadu_pd(b + k - 4 - j), 0x1b);
+        return _mm256_permute4x64_pd(_mm256_loadu_pd(b + k - first - 3 - j), 0x1b);
     };
-    __m256d sums = _mm256_mul_pd(_mm256_loadu_pd(a + 1), term(0));
+    __m256d sums = _mm256_mul_pd(_mm256_loadu_pd(a + first), term(0));
     [&]<int... j>(Indices<j...>) __attribute__((always_inline)) {
-        ((sums = _mm256_fmadd_pd(_mm256_loadu_pd(a + 5 + std::ptrdiff_t{4} * j), term(4 + 4 * j), sums)), ...);
+        ((sums = _mm256_fmadd_pd(_mm256_loadu_pd(a + first + 4 + std::ptrdiff_t{4} * j), term(4 + 4 * j), sums)), ...);
     }
     (std::make_integer_sequence<int, terms / 4 - 1>{});
     __m128d low = _mm256_castpd256_pd128(sums);
     __m128d high = _mm256_extractf128_pd(sums, 1);
     constexpr int done = terms / 4 * 4;
     if constexpr (terms - done >= 2) {
-        const __m128d pair = _mm_loadu_pd(b + k - 2 - done);
-        low = _mm_fmadd_pd(_mm_loadu_pd(a + 1 + done), _mm_shuffle_pd(pair, pair, 1), low);
+        const __m128d pair = _mm_loadu_pd(b + k - first - 1 - done);
+        low = _mm_fmadd_pd(_mm_loadu_pd(a + first + done), _mm_shuffle_pd(pair, pair, 1), low);
     }
     if constexpr ((terms - done) % 2 == 1) {
         __m128d& sum = terms - done == 1 ? low : high;
-        sum[0] = multiply_add(a[terms], b[k - terms], sum[0]);
+        sum[0] = multiply_add(a[first + terms - 1], b[k - first - terms + 1], sum[0]);
     }
     const __m128d halves = _mm_hadd_pd(low, high);
     return halves[0] + halves[1];
@@ -116,49 +116,90 @@ template <int k, int terms>
 inline constexpr bool in_loop = (k > highest_unrolled) && (terms >= 4);
 
 template <class V>
-[[gnu::noinline]] V long_convolution(const double* a, const double* b, Order k, Order terms) {
+[[gnu::noinline]] V long_sum_of_products(const double* a, const double* b, Order k, Order first, Order terms) {
     return sum_in_loop<V>(
         terms, [&](Order j) __attribute__((always_inline)) {
-            return Factors<V>{at<V>(a, j + 1), at<V>(b, k - 1 - j)};
+            return Factors<V>{at<V>(a, first + j), at<V>(b, k - first - j)};
         });
 }
 
-/// Sum of a[j] b[k-j], 0 < j <= terms.
-template <class V, int k, int terms = k - 1>
-GRAZE_INLINE V convolution(const double* a, const double* b) {
+/// Sum of a[j] b[k-j], first <= j < first + terms.
+template <class V, int k, int first, int terms>
+GRAZE_INLINE V sum_of_products(const double* a, const double* b) {
     if constexpr (in_loop<k, terms>) {
-        return long_convolution<V>(a, b, k, terms);
+        return long_sum_of_products<V>(a, b, k, first, terms);
     } else {
 #if defined(__FMA__)
         if constexpr (Numbers<V>::width == 1 && terms >= 4)
-            return convolution_by_four<k, terms>(a, b);
+            return sum_by_four<k, first, terms>(a, b);
 #endif
         V sums[4];
         [&]<int... j>(Indices<j...>) __attribute__((always_inline)) {
-            (accumulate<j>(sums, at<V>(a, j + 1), at<V>(b, k - 1 - j)), ...);
+            (accumulate<j>(sums, at<V>(a, first + j), at<V>(b, k - first - j)), ...);
         }
         (std::make_integer_sequence<int, terms>{});
         return total<terms>(sums);
     }
 }
 
+// The products of the coefficients that became known last, those of order k - 1, are added last: all others have been
+// summed by then, and wide loads of them do not wait for numbers that have just been stored.
+
+/// Sum of a[j] b[k-j], 0 < j < k; k >= 2.
+template <class V, int k>
+GRAZE_INLINE V convolution(const double* a, const double* b) {
+    const V a1 = at<V>(a, 1);
+    if constexpr (k == 2) {
+        return a1 * at<V>(b, 1);
+    } else {
+        const V last = at<V>(b, k - 1);
+        V sum;
+        if constexpr (k == 3)
+            sum = a1 * last;
+        else
+            sum = multiply_add(a1, last, sum_of_products<V, k, 2, k - 3>(a, b));
+        return multiply_add(at<V>(a, k - 1), at<V>(b, 1), sum);
+    }
+}
+/// Sum of a[j] a[k-j], 0 < j < k/2; k >= 3.
+template <class V, int k>
+GRAZE_INLINE V half_convolution(const double* a) {
+    constexpr int terms = (k - 1) / 2;
+    if constexpr (terms == 1)
+        return at<V>(a, 1) * at<V>(a, k - 1);
+    else
+        return multiply_add(at<V>(a, 1), at<V>(a, k - 1), sum_of_products<V, k, 2, terms - 1>(a, a));
+}
+
 /// The convolutions of two orders at once. Ensembles are limited by loads, and this way each loaded coefficient serves
-/// two products. (The sums have the same order of terms as those of `convolution`.)
-template <class V, int k, int terms = k - 1>
+/// two products. (The sums have the same order of terms as those of `convolution` and `half_convolution`.)
+template <class V, int k, bool half = false>
 class TwoConvolutions {
+    static constexpr int terms = half ? k / 2 - 2 : k - 3; ///< of the first, without those of order k - 1
+
 public:
-    GRAZE_INLINE TwoConvolutions(const double* a, const double* b) : b_(at<V>(b, k)) {
+    GRAZE_INLINE TwoConvolutions(const double* a, const double* b)
+        : a1_(at<V>(a, 1)), b1_(at<V>(b, 1)), last_(at<V>(b, k - 1)), next_(at<V>(b, k)), b_(last_) {
         [&]<int... j>(Indices<j...>) __attribute__((always_inline)) {
-            (add<j>(at<V>(a, j + 1), at<V>(b, k - 1 - j)), ...);
+            (add<j>(at<V>(a, j + 2), at<V>(b, k - 2 - j)), ...);
         }
         (std::make_integer_sequence<int, terms>{});
+        before_ = at<V>(a, terms + 2);
+        accumulate<terms>(second_, before_, b_);
     }
-    /// Sum of a[j] b[k-j], 0 < j <= terms.
-    GRAZE_INLINE V first() const { return total<terms>(first_); }
-    /// Sum of a[j] b[k+1-j], 0 < j <= terms + 1, given the last a[j].
-    GRAZE_INLINE V second(V last) {
-        accumulate<terms>(second_, last, b_);
-        return total<terms + 1>(second_);
+    /// Sum of order k.
+    GRAZE_INLINE V first() const {
+        if constexpr (terms == 0) {
+            return a1_ * last_;
+        } else {
+            const V sum = multiply_add(a1_, last_, total<terms>(first_));
+            return half ? sum : multiply_add(before_, b1_, sum);
+        }
+    }
+    /// Sum of order k + 1, given coefficient k of the first series.
+    GRAZE_INLINE V second(V a) const {
+        const V sum = multiply_add(a1_, next_, total<terms + 1>(second_));
+        return half ? sum : multiply_add(a, b1_, sum);
     }
 
 private:
@@ -169,8 +210,10 @@ private:
         b_ = b;
     }
 
+    V a1_, b1_, last_, next_; ///< coefficients 1 of both, then k - 1 and k of the second series
+    V before_;                ///< the last a of the loop; k - 1 unless `half`
+    V b_;                     ///< the last b loaded
     V first_[4], second_[4];
-    V b_; ///< the last b loaded
 };
 
 template <class V>
@@ -201,7 +244,7 @@ GRAZE_INLINE V self_convolution(const double* a) {
         const V middle = at<V>(a, 1);
         return middle * middle;
     } else {
-        return self_convolution<V, k>(a, convolution<V, k, (k - 1) / 2>(a, a));
+        return self_convolution<V, k>(a, half_convolution<V, k>(a));
     }
 }
 
@@ -259,8 +302,8 @@ struct Square {
         if constexpr (ends_pair<V, k>) {
             return self_convolution<V, k>(o.left, at<V>(o.result, k));
         } else if constexpr (starts_pair<V, k> && !closing) {
-            TwoConvolutions<V, k, k / 2 - 1> sums(o.left, o.left);
-            put(o.result, k + 1, sums.second(at<V>(o.left, k / 2)));
+            TwoConvolutions<V, k, true> sums(o.left, o.left);
+            put(o.result, k + 1, sums.second(at<V>(o.left, k)));
             return self_convolution<V, k>(o.left, sums.first());
         } else {
             return self_convolution<V, k>(o.left);
