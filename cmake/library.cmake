@@ -3,6 +3,9 @@
 set(GRAZE_FOLDERS base symbolic model tape flow trajectory record bench acquire identify sweep orbit grazing branch trip results study atlas design layout picture page)
 
 # Other libraries that a folder needs.
+if(GRAZE_NATIVE)
+    set(GRAZE_NEEDS_tape asmjit::asmjit)
+endif()
 set(GRAZE_NEEDS_sweep Threads::Threads)
 set(GRAZE_NEEDS_record graze_hdf5)
 set(GRAZE_NEEDS_acquire Boost::headers Threads::Threads)
@@ -30,6 +33,9 @@ set(earlier)
 foreach(folder IN LISTS GRAZE_FOLDERS)
     file(GLOB sources CONFIGURE_DEPENDS src/${folder}/*.cpp)
     list(FILTER sources EXCLUDE REGEX "/tape/jet_(baseline|avx2|avx512).cpp$")
+    if(NOT GRAZE_NATIVE)
+        list(FILTER sources EXCLUDE REGEX "/tape/native_(emitter|registers|sums).cpp$")
+    endif()
     if(sources)
         add_library(graze_${folder} OBJECT ${sources})
         set_target_properties(graze_${folder} PROPERTIES POSITION_INDEPENDENT_CODE ON)
@@ -43,6 +49,7 @@ foreach(folder IN LISTS GRAZE_FOLDERS)
             set(most 12)
             # Its instances of Eigen's templates take longer to compile than all else here.
             list(FILTER together EXCLUDE REGEX "/decompositions.cpp$")
+            list(FILTER together EXCLUDE REGEX "/native_[a-z]+.cpp$")
         else()
             target_compile_options(graze_${folder} PRIVATE ${GRAZE_COMPILED_FAST})
             use_prefix(graze_${folder} graze_prefix_fast)
@@ -67,6 +74,9 @@ target_include_directories(
 )
 # All but HDF5, of which the Python module uses another form, and cpp-httplib, which only the server of pages needs.
 set(GRAZE_LINKED fmt::fmt Threads::Threads SQLite::SQLite3 NLopt::nlopt Ceres::ceres)
+if(GRAZE_NATIVE)
+    list(APPEND GRAZE_LINKED asmjit::asmjit)
+endif()
 target_link_libraries(graze PRIVATE $<BUILD_INTERFACE:graze_options> ${GRAZE_LINKED} $<BUILD_INTERFACE:graze_hdf5>
                                     $<BUILD_INTERFACE:graze_httplib>
 )
@@ -74,6 +84,9 @@ set_target_properties(
     graze PROPERTIES LINKER_LANGUAGE CXX VERSION ${PROJECT_VERSION} SOVERSION
                      ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
 )
+if(GRAZE_NATIVE)
+    target_compile_definitions(graze_tape PRIVATE GRAZE_NATIVE)
+endif()
 foreach(folder study page)
     target_compile_definitions(graze_${folder} PRIVATE GRAZE_VERSION="${PROJECT_VERSION}")
 endforeach()

@@ -23,7 +23,7 @@ string(
 # linking with the library, must be listed.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot, graphviz")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, cmake, libfmt-dev, libsqlite3-dev, libnlopt-dev, libceres-dev, libcpp-httplib-dev")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, cmake, libfmt-dev, libsqlite3-dev, libnlopt-dev, libceres-dev, libcpp-httplib-dev, libasmjit-dev")
 include(CPack)
 
 # The Python module is a package of its own: `cpack --config CPackPythonConfig.cmake`.

@@ -110,15 +110,28 @@ struct System::Uniformised {
     std::optional<UniformisedSystem> system;
 };
 
-System::System(const Model& model) {
+namespace {
+
+void apply(const SystemOptions& options, Tape& tape) {
+    if (!options.machine_code)
+        tape.native_codes = nullptr;
+}
+
+} // namespace
+
+System::System(const Model& model, SystemOptions options) {
     auto parts = std::make_shared<Parts>();
     parts->model = model;
+    parts->options = options;
     parts->model.validate();
     parts->states = model.states.size();
     parts->parameters = parts->model.parameter_symbols().size();
     SystemCompiler compiler(parts->model);
     compiler.compile(*parts);
-    modes_ = std::make_shared<const std::vector<CompiledMode>>(compiler.compile_modes());
+    std::vector<CompiledMode> modes = compiler.compile_modes();
+    for (CompiledMode& mode : modes)
+        apply(options, mode.tape);
+    modes_ = std::make_shared<const std::vector<CompiledMode>>(std::move(modes));
     linear_ = std::make_shared<LinearModes>(modes_->size());
     uniformised_ = std::make_shared<Uniformised>();
     variations_ = std::make_shared<Variations>();
@@ -133,6 +146,8 @@ System System::with_tapes(std::vector<CompiledMode> modes, std::span<const Expre
     System result = *this;
     SystemCompiler compiler(model());
     compiler.observe(modes, observed);
+    for (CompiledMode& mode : modes)
+        apply(options(), mode.tape);
     result.modes_ = std::make_shared<const std::vector<CompiledMode>>(std::move(modes));
     result.linear_ = std::make_shared<LinearModes>(result.modes_->size());
     result.observed_ = compiler.expanded(observed);
@@ -144,7 +159,10 @@ System System::with_tapes(std::vector<CompiledMode> modes, std::span<const Expre
 const LinearMode& System::linear(std::size_t mode) const {
     require_index(mode, modes_->size(), "mode");
     LinearModes::Item& item = linear_->items[mode];
-    std::call_once(item.compiled, [&] { item.mode = SystemCompiler(model()).linearise(*this, mode, observed_); });
+    std::call_once(item.compiled, [&] {
+        item.mode = SystemCompiler(model()).linearise(*this, mode, observed_);
+        apply(options(), item.mode->tape);
+    });
     return *item.mode;
 }
 

@@ -131,7 +131,7 @@ bool vanishes_with(const Expression& radicand, std::span<const Expression> ends)
 class Uniformiser {
 public:
     explicit Uniformiser(const System& system)
-        : model_(system.model()), states_(model_.state_symbols()), state_index_(states_),
+        : model_(system.model()), options_(system.options()), states_(model_.state_symbols()), state_index_(states_),
           root_(unused_symbol(model_, "root_of_radicand")), elapsed_(unused_symbol(model_, "elapsed")) {
         grown_.graph = model_.graph;
         grown_.name = model_.name;
@@ -176,7 +176,7 @@ public:
     std::optional<System> compile(std::vector<std::vector<UniformisedRoot>>& roots) {
         if (radicands_.empty())
             return std::nullopt;
-        System system = System(grown_).observing(radicands_);
+        System system = System(grown_, options_).observing(radicands_);
         for (auto& of_mode : roots)
             for (UniformisedRoot& root : of_mode)
                 root.field = system.function_of(fields_[root.output]);
@@ -211,6 +211,7 @@ private:
     }
 
     Model model_, grown_;
+    SystemOptions options_;
     std::vector<Expression> states_;
     SymbolIndex state_index_;
     Expression root_, elapsed_;

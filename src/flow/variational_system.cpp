@@ -25,7 +25,7 @@ namespace {
 /// @param rows states whose derivatives are computed
 /// @param columns for each column, the vector along which it is the derivative: first the components of the rows, in
 /// their order, then others, which become parameters
-System modes_with_tangents(Model& model, std::span<const std::size_t> rows,
+System modes_with_tangents(Model& model, SystemOptions options, std::span<const std::size_t> rows,
                            std::span<const std::vector<Component>> columns) {
     Model grown;
     grown.graph = model.graph;
@@ -55,7 +55,7 @@ System modes_with_tangents(Model& model, std::span<const std::size_t> rows,
         grown.modes.push_back(
             {.name = mode.name, .rates = std::move(rates), .ends = ends_of_mode(model, grown.modes.size())});
     }
-    return System(grown);
+    return System(grown, options);
 }
 
 /// Differentiates in a copy of a system's model, whose graph may grow and is discarded afterwards.
@@ -77,13 +77,15 @@ public:
 
 private:
     Model model_;
+    SystemOptions options_;
     std::vector<Expression> states_, known_, variables_, vector_;
     std::vector<Component> along_; ///< the vector
     std::size_t workspace_ = 0;
 };
 
 VariationalCompiler::VariationalCompiler(const System& system, std::span<const ParameterId> free)
-    : model_(system.model()), states_(model_.state_symbols()), known_(model_.inputs()), variables_(states_) {
+    : model_(system.model()), options_(system.options()), states_(model_.state_symbols()), known_(model_.inputs()),
+      variables_(states_) {
     const std::vector<Expression> parameters = model_.parameter_symbols();
     for (const ParameterId parameter : free)
         variables_.push_back(parameters[parameter.place()]);
@@ -116,7 +118,7 @@ Function VariationalCompiler::function_of(std::span<const Expression> functions)
 System VariationalCompiler::modes() {
     std::vector<std::size_t> rows(states_.size());
     std::iota(rows.begin(), rows.end(), std::size_t{0});
-    return modes_with_tangents(model_, rows, std::span(&along_, 1));
+    return modes_with_tangents(model_, options_, rows, std::span(&along_, 1));
 }
 
 } // namespace

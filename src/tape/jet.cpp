@@ -6,6 +6,7 @@
 #include "graze/symbolic/piece_table.hpp"
 #include "tape/aligned_numbers.hpp"
 #include "tape/kernel_program.hpp"
+#include "tape/native_code.hpp"
 #include "tape/tape_analysis.hpp"
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,7 +51,7 @@ constexpr double nothing = 40;
 
 class TapeJet final : public Jet {
 public:
-    TapeJet(const Tape& tape, int order, const KernelTable& table);
+    TapeJet(const Tape& tape, int order, LaneKind kind, InstructionSet set, MachineCode code);
 
     int order() const override { return order_; }
     int width() const override { return static_cast<int>(layout_.number); }
@@ -130,13 +132,19 @@ private:
     bool has_states(std::span<const double> states) const;
     void sort_series(const Tape& tape);
 
+    void use(std::shared_ptr<const NativeCode> code);
+
     const KernelTable& table_;
+    InstructionSet set_;
     int order_;
     std::size_t states_;
     std::size_t parameters_;
     JetLayout layout_;
     AlignedNumbers memory_;
     std::vector<TermOperands> terms_;
+    std::shared_ptr<NativeCodes> codes_; ///< null if only kernels are used
+    std::optional<NativeRun> native_;    ///< computes what the first program does, if there is code
+    int until_portion_ = NativeCodes::portion;
     std::vector<KernelProgram> programs_; ///< for states and outputs, then for each part of `deferred_code`
     /// What each program has computed from the present states and parameters: nothing, orders 0 and 1, or all orders.
     enum class Progress : unsigned char { none, begun, computed };
@@ -159,9 +167,10 @@ private:
     std::vector<double> inputs_, arguments_now_, work_; ///< of the tables that are looked up
 };
 
-TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
-    : table_(table), order_(order), states_(tape.states), parameters_(tape.parameters),
-      layout_(tape, order, table.width), memory_(layout_.size + read_behind) {
+TapeJet::TapeJet(const Tape& tape, int order, LaneKind kind, InstructionSet set, MachineCode code)
+    : table_(kernel_table(kind, set)), set_(set), order_(order), states_(tape.states), parameters_(tape.parameters),
+      layout_(tape, order, table_.width), memory_(layout_.size + read_behind) {
+    const KernelTable& table = table_;
     const auto register_at = [&](std::uint32_t index) {
         return memory_.data() + layout_.registers + index * layout_.series;
     };
@@ -217,6 +226,16 @@ TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
     sort_series(tape);
     find_constants(tape, table);
     compute_constants();
+    if (kind == LaneKind::single && code != MachineCode::never && tape.native_codes) {
+        codes_ = tape.native_codes;
+        use(code == MachineCode::at_once ? codes_->after_portion(order_, set_, true) : codes_->find(order_, set_));
+    }
+}
+
+/// Computes by machine code from now on, if there is any.
+void TapeJet::use(std::shared_ptr<const NativeCode> code) {
+    if (code)
+        native_.emplace(std::move(code), memory_.data());
 }
 
 /// Selects the series that limit steps (a polynomial below the order does not), and those to be compared at ends of
@@ -348,7 +367,15 @@ bool TapeJet::has_states(std::span<const double> states) const {
 
 void TapeJet::compute(std::span<const double> states) {
     begin(states);
-    programs_.front().go_on();
+    if (native_) {
+        native_->go_on();
+    } else {
+        programs_.front().go_on();
+        if (codes_ && --until_portion_ == 0) {
+            until_portion_ = NativeCodes::portion;
+            use(codes_->after_portion(order_, set_, false));
+        }
+    }
     progress_.front() = Progress::computed;
 }
 
@@ -358,7 +385,10 @@ void TapeJet::begin(std::span<const double> states) {
     set_states(states);
     if (!pieces_.empty())
         look_up();
-    programs_.front().begin();
+    if (native_)
+        native_->begin();
+    else
+        programs_.front().begin();
     std::ranges::fill(progress_, Progress::none);
     progress_.front() = Progress::begun;
 }
@@ -479,13 +509,13 @@ int lanes_of(LaneKind kind, InstructionSet set) {
     return kernel_table(kind, set).width;
 }
 
-std::unique_ptr<Jet> make_jet(const Tape& tape, int order, LaneKind kind, InstructionSet set) {
+std::unique_ptr<Jet> make_jet(const Tape& tape, int order, LaneKind kind, InstructionSet set, MachineCode code) {
     require_known(kind, set);
     if (order < 1 || order > highest_order)
         throw InputError("the order of a jet must be between 1 and " + std::to_string(highest_order), "");
     if (!is_supported(set))
         throw InputError("this processor does not have the instruction set " + std::string(name_of(set)), "");
-    return std::make_unique<TapeJet>(tape, order, kernel_table(kind, set));
+    return std::make_unique<TapeJet>(tape, order, kind, set, code);
 }
 
 } // namespace graze

@@ -3,6 +3,7 @@
 #include "graze/base/input_error.hpp"
 
 #include "symbolic/subgraph.hpp"
+#include "tape/native_code.hpp"
 #include "tape/series_builder.hpp"
 #include "tape/tape_analysis.hpp"
 
@@ -192,6 +193,7 @@ Tape compile_tape(std::span<const Expression> states, std::span<const Expression
     separate_deferred_code(tape, groups);
     builder.constants().move_to(tape);
     pieces.move_to(tape, joined(states, parameters));
+    tape.native_codes = std::make_shared<NativeCodes>(tape);
     return tape;
 }
 

@@ -34,6 +34,13 @@ struct LinearMode {
     }
 };
 
+/// Options of `System`.
+struct SystemOptions {
+    /// Whether long runs of single trajectories may compute by machine code made from the model's tapes: the same
+    /// results, bit for bit, in less time. See `MachineCode`.
+    bool machine_code = true;
+};
+
 /// A model, frozen and compiled: a tape for each mode, functions for jumps, conditions and derivatives. All
 /// computations share one system, from any number of threads; copies are handles to the same object. Parameters are
 /// inputs, not part of the system.
@@ -44,7 +51,7 @@ public:
     /// Compiles a copy of the model: later changes of the model have no effect. Several threads may compile one model
     /// at once. Compiling takes from a fraction of a millisecond to a second: compile once what is used often.
     /// @throws InputError when the model is not valid (Model::validate)
-    explicit System(const Model& model);
+    explicit System(const Model& model, SystemOptions options = {});
 
     /// The derivatives of a function with respect to states that are not identically zero.
     struct CompiledGradient {
@@ -126,6 +133,7 @@ public:
 
     /// Returns the compiled model. Its graph cannot grow: for new expressions, copy it.
     const Model& model() const { return parts_->model; }
+    const SystemOptions& options() const { return parts_->options; }
     std::size_t states() const { return parts_->states; }
     std::size_t parameters() const { return parts_->parameters; }
     std::size_t observed() const { return observed_.size(); }
@@ -183,6 +191,7 @@ private:
     System with_tapes(std::vector<CompiledMode> modes, std::span<const Expression> observed) const;
     struct Parts {
         Model model;
+        SystemOptions options;
         std::size_t states = 0, parameters = 0, jacobian_entries = 0;
         std::vector<CompiledJump> jumps, symmetries;
         std::vector<CompiledTransition> transitions;

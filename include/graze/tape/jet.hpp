@@ -24,6 +24,14 @@ enum class LaneKind {
     ensemble, ///< independent trajectories of one tape, side by side
 };
 
+/// Whether a jet of a single lane uses machine code made from its tape, which computes the same, bit for bit, in less
+/// time. It is made on x86-64 processors with AVX2, if the library was built with the assembler (`GRAZE_NATIVE`).
+enum class MachineCode {
+    never,
+    in_long_runs, ///< once jets of the tape have computed some thousand times, unless the tape excludes it
+    at_once,      ///< for tests; the same unless the tape excludes it
+};
+
 /// Highest order for which kernels exist.
 inline constexpr int highest_order = 32;
 
@@ -121,7 +129,9 @@ int lanes_of(LaneKind kind, InstructionSet set);
 
 /// Makes a jet; the tape is not needed afterwards. Computing does not allocate. Parameters are 0 until they are set.
 /// @param order 1 .. highest_order
+/// @param code has an effect only on jets of a single lane
 /// @throws InputError when the instruction set is not supported or the order out of range
-std::unique_ptr<Jet> make_jet(const Tape& tape, int order, LaneKind kind, InstructionSet set = best_instruction_set());
+std::unique_ptr<Jet> make_jet(const Tape& tape, int order, LaneKind kind, InstructionSet set = best_instruction_set(),
+                              MachineCode code = MachineCode::in_long_runs);
 
 } // namespace graze

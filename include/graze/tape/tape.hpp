@@ -59,6 +59,8 @@ struct ConstantInstruction {
     std::uint32_t result, left, right;
 };
 
+class NativeCodes;
+
 /// Expressions compiled for the computation of Taylor coefficients along the flow of one vector field.
 struct Tape {
     std::uint32_t states = 0;     ///< registers 0 .. states-1 are the states
@@ -93,6 +95,8 @@ struct Tape {
     std::vector<Location> deferred;
     /// Instructions for the deferred expressions: of group 0; shared by other groups; then of each other group alone.
     std::vector<std::vector<Instruction>> deferred_code;
+    /// The machine code that jets of this tape and of its copies make in long runs; null: none.
+    std::shared_ptr<NativeCodes> native_codes;
 };
 
 /// A term of the first variational equations of a mode: a coefficient that varies along the motion, times the change of
