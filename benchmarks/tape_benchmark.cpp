@@ -141,9 +141,9 @@ double hand_written_time() {
     });
 }
 
-std::unique_ptr<Jet> impactor_jet(LaneKind kind, InstructionSet set) {
+std::unique_ptr<Jet> impactor_jet(LaneKind kind, InstructionSet set, MachineCode code) {
     const Tape tape = impactor();
-    auto jet = make_jet(tape, order, kind, set);
+    auto jet = make_jet(tape, order, kind, set, code);
     const int width = jet->width();
     std::vector<double> parameters;
     for (const double value : {damping, gap, alpha1, alpha2, frequency, voltage})
@@ -153,8 +153,8 @@ std::unique_ptr<Jet> impactor_jet(LaneKind kind, InstructionSet set) {
     return jet;
 }
 
-void tape_jet(benchmark::State& state, LaneKind kind, InstructionSet set) {
-    const auto jet = impactor_jet(kind, set);
+void tape_jet(benchmark::State& state, LaneKind kind, InstructionSet set, MachineCode code) {
+    const auto jet = impactor_jet(kind, set, code);
     States states(jet->width());
     for (auto unused : state) {
         jet->compute(states.next());
@@ -187,9 +187,9 @@ void hand_written_jet(benchmark::State& state) {
     state.counters["jets"] = benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 
-void compile_and_make(benchmark::State& state) {
+void compile_and_make(benchmark::State& state, MachineCode code) {
     for (auto unused : state)
-        benchmark::DoNotOptimize(impactor_jet(LaneKind::single, best_instruction_set()).get());
+        benchmark::DoNotOptimize(impactor_jet(LaneKind::single, best_instruction_set(), code).get());
 }
 
 const int registered = [] {
@@ -198,10 +198,16 @@ const int registered = [] {
         if (!is_supported(set))
             continue;
         const std::string name(name_of(set));
-        benchmark::RegisterBenchmark(("tape_jet/single/" + name).c_str(), tape_jet, LaneKind::single, set);
-        benchmark::RegisterBenchmark(("tape_jet/ensemble/" + name).c_str(), tape_jet, LaneKind::ensemble, set);
+        benchmark::RegisterBenchmark(("tape_jet/single/" + name).c_str(), tape_jet, LaneKind::single, set,
+                                     MachineCode::never);
+        if (set != InstructionSet::baseline) // for which none is made
+            benchmark::RegisterBenchmark(("tape_jet/machine_code/" + name).c_str(), tape_jet, LaneKind::single, set,
+                                         MachineCode::at_once);
+        benchmark::RegisterBenchmark(("tape_jet/ensemble/" + name).c_str(), tape_jet, LaneKind::ensemble, set,
+                                     MachineCode::never);
     }
-    benchmark::RegisterBenchmark("compile_tape_and_make_jet", compile_and_make);
+    benchmark::RegisterBenchmark("compile_tape_and_make_jet", compile_and_make, MachineCode::never);
+    benchmark::RegisterBenchmark("compile_tape_and_make_code", compile_and_make, MachineCode::at_once);
     return 0;
 }();
 
