@@ -1,5 +1,6 @@
 #include "graze/flow/mode_flow.hpp"
 
+#include "flow/grouped_directions.hpp"
 #include "flow/table_steps.hpp"
 #include "flow/uniformised_flow.hpp"
 #include "graze/base/require.hpp"
@@ -49,7 +50,8 @@ ModeFlow::ModeFlow(const System& system, double tolerance, int order, std::vecto
       tangents_(system, tolerance, directions_), allowance_{StepCheck::allowance * tolerance,
                                                             StepCheck::value_allowance * tolerance,
                                                             StepCheck::smallest_size},
-      table_steps_(TableSteps::of(system, order_of(tolerance, order))), tolerance_(tolerance), order_(order) {
+      table_steps_(TableSteps::of(system, order_of(tolerance, order))), grouped_(system.model().modes.size()),
+      tolerance_(tolerance), order_(order) {
     if (directions_ > 0)
         jets_.add_tangents();
     for (const ParameterId parameter : free_)
@@ -86,6 +88,9 @@ void ModeFlow::set_parameters(std::span<const double> parameters) {
         table_steps_->set_parameters(parameters_);
     dormant_states_.set_parameters(parameters_);
     tangents_.set_parameters(parameters_, parameter_seeds_);
+    for (const auto& directions : grouped_)
+        if (directions && *directions)
+            (*directions)->set_parameters(parameters_);
     if (uniformised_)
         uniformised_->set_parameters(parameters_);
 }
@@ -153,6 +158,17 @@ UniformisedFlow* ModeFlow::uniformised(std::size_t mode) {
         uniformised_->set_parameters(parameters_);
     }
     return uniformised_.get();
+}
+
+/// Returns the directions of the mode in groups; null if they are followed one by one.
+GroupedDirections* ModeFlow::grouped(std::size_t mode) {
+    auto& directions = grouped_[mode];
+    if (!directions) {
+        directions = GroupedDirections::of(system_, mode, tolerance_, order_of(tolerance_, order_), starts_, free_);
+        if (*directions)
+            (*directions)->set_parameters(parameters_);
+    }
+    return directions->get();
 }
 
 /// Runs through zeros of radicands. Steps in time, which become short near these, are made besides for `visit`.
@@ -267,6 +283,10 @@ ModeFlow::Ending ModeFlow::follow(std::size_t mode, std::span<double> state, dou
     std::fill(matrix_.begin(), matrix_.end(), 0.0);
     for (std::size_t d = 0; d < starts_.size(); ++d)
         matrix_[starts_[d] * directions_ + d] = 1;
+    GroupedDirections* const groups = grouped(mode);
+    TangentSteps& tangents = groups != nullptr ? groups->steps() : tangents_;
+    if (groups != nullptr)
+        groups->begin();
     double time = 0, remaining = duration;
     previous_ = 0;
     dormant_states_.begin();
@@ -282,23 +302,26 @@ ModeFlow::Ending ModeFlow::follow(std::size_t mode, std::span<double> state, dou
         ends = watchers.end != nullptr && (*watchers.end)(jet, wanted);
         if (watchers.watched != nullptr)
             watchers.watched->note(jet);
-        tangents_.begin(jet, mode, state, matrix_);
+        tangents.begin(jet, mode, state, groups != nullptr ? groups->seeds() : matrix_);
+        const std::span<double> after = groups != nullptr ? groups->at_end() : std::span<double>(next_);
         const std::span<const double> end =
             seen_ == wanted ? std::span<const double>(sums_).first(states_) : std::span<const double>{};
         double step = wanted;
         if (crosses_knot_)
-            tangents_.cross(wanted, next_);
+            tangents.cross(wanted, after);
         else
-            step = tangents_.carry(jets_.next(mode), wanted, next_, end);
+            step = tangents.carry(jets_.next(mode), wanted, after, end);
         if (std::isnan(step))
             return Ending::undefined;
         at_knot_ = at_knot_ && step == wanted;
         ends = ends && step == wanted;
         if (std::abs(step) < std::abs(duration) * smallest_share && step != remaining && !ends && !at_knot_)
             return Ending::singular;
-        std::copy(tangents_.state().begin(), tangents_.state().end(), state.begin());
+        std::copy(tangents.state().begin(), tangents.state().end(), state.begin());
         if (watchers.watched != nullptr)
             watchers.watched->end_step(time, step);
+        if (groups != nullptr)
+            groups->multiply(matrix_, next_);
         matrix_.swap(next_);
         ++steps_;
         time += step;

@@ -16,6 +16,7 @@
 
 namespace graze {
 
+class GroupedDirections;
 class TableSteps;
 class UniformisedFlow;
 
@@ -81,6 +82,7 @@ private:
     Ending follow(std::size_t mode, std::span<double> state, double duration, std::span<double> derivatives,
                   const Watchers& watchers);
     UniformisedFlow* uniformised(std::size_t mode);
+    GroupedDirections* grouped(std::size_t mode);
     Ending run_uniformised(std::size_t mode, std::span<double> state, double duration, std::span<double> derivatives,
                            const StepVisitor& visit);
     double step_of(std::size_t mode, const Jet& jet, double remaining, bool watched);
@@ -105,6 +107,8 @@ private:
     bool at_knot_ = false, crosses_knot_ = false; ///< whether a table ends the present step: see TableSteps
     std::unique_ptr<TableSteps> table_steps_;
     std::unique_ptr<UniformisedFlow> uniformised_; ///< made when first needed
+    /// Of each mode, found when first needed; null where directions are not grouped.
+    std::vector<std::optional<std::unique_ptr<GroupedDirections>>> grouped_;
     double tolerance_;
     int order_;
 };
