@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace graze {
 
@@ -23,6 +24,51 @@ struct Separation {
     double least;
 };
 constexpr Separation separations[] = {{2, 0.95}, {4, 0.985}, {6, 0.996}};
+
+/// A power of a matrix, whose exponent is a power of two.
+class Power : public LinearMap {
+public:
+    explicit Power(Eigen::MatrixXd matrix) : matrix_(std::move(matrix)) {}
+    explicit Power(const LinearMap& map) : map_(&map) {}
+    Eigen::Index size() const override { return map_ ? map_->size() : matrix_.rows(); }
+    Eigen::VectorXd times(const Eigen::VectorXd& vector) const override {
+        if (!map_)
+            return matrix_ * vector;
+        return repeated(vector, [this](const Eigen::VectorXd& one) { return map_->times(one); });
+    }
+    Eigen::VectorXd transposed_times(const Eigen::VectorXd& vector) const override {
+        if (!map_)
+            return matrix_.transpose() * vector;
+        return repeated(vector, [this](const Eigen::VectorXd& one) { return map_->transposed_times(one); });
+    }
+    /// Squares the power until it has been squared that many times. @return false when a number is not finite
+    bool square_to(int squarings) {
+        constexpr int most_applied = 2; // squarings up to which the map is applied several times instead
+        if (map_ && squarings <= most_applied) {
+            squared_ = squarings;
+            return true;
+        }
+        if (map_) {
+            matrix_.resize(size(), size());
+            for (Eigen::Index i = 0; i < matrix_.cols(); ++i)
+                matrix_.col(i) = times(Eigen::VectorXd::Unit(matrix_.rows(), i));
+            map_ = nullptr;
+        }
+        for (; squared_ < squarings; ++squared_)
+            matrix_ = Eigen::MatrixXd(matrix_ * matrix_);
+        return matrix_.allFinite();
+    }
+
+private:
+    Eigen::VectorXd repeated(Eigen::VectorXd vector, const auto& apply) const {
+        for (int i = 0; i < 1 << squared_; ++i)
+            vector = apply(vector);
+        return vector;
+    }
+    const LinearMap* map_ = nullptr; ///< null where the power itself is at hand
+    Eigen::MatrixXd matrix_;
+    int squared_ = 0;
+};
 
 /// Returns a vector whose direction is equally likely to be any.
 Eigen::VectorXd random_direction(Eigen::Index size) {
@@ -45,14 +91,14 @@ Eigen::VectorXd take_out(const Columns& columns, Eigen::VectorXd& vector) {
 
 /// Returns a basis of the invariant subspace of the eigenvalues of a power whose magnitudes are at least `least`.
 /// @return none where they are not found
-std::optional<Eigen::MatrixXd> leading_space(const Eigen::MatrixXd& power, double least) {
+std::optional<Eigen::MatrixXd> leading_space(const LinearMap& power, double least) {
     constexpr double converged = 1e-13;
     constexpr Eigen::Index examined_after = 16; // vectors
-    const Eigen::Index n = power.rows();
+    const Eigen::Index n = power.size();
     Eigen::MatrixXd vectors(n, most_vectors + 1), projected = Eigen::MatrixXd::Zero(most_vectors + 1, most_vectors);
     vectors.col(0) = random_direction(n);
     for (Eigen::Index m = 1; m <= most_vectors; ++m) {
-        Eigen::VectorXd next = power * vectors.col(m - 1);
+        Eigen::VectorXd next = power.times(vectors.col(m - 1));
         const double whole = next.norm();
         projected.col(m - 1).head(m) = take_out(vectors.leftCols(m), next);
         const double left = next.norm() > no_share * whole ? next.norm() : 0;
@@ -96,11 +142,11 @@ std::optional<Eigen::MatrixXd> leading_space(const Eigen::MatrixXd& power, doubl
 
 /// Returns a bound of the norm of a map's power, by Lanczos' method for the product of its transpose and itself.
 /// @param space orthonormal columns, whose components are removed before and after each application
-double norm_of_power(const Eigen::MatrixXd& map, const Eigen::MatrixXd& space, int power) {
+double norm_of_power(const LinearMap& map, const Eigen::MatrixXd& space, int power) {
     // With these steps the norm is more than twice the one found with a chance of 1.65 sqrt(n) exp(-sqrt(3/4) 31).
     constexpr int steps = 16;
     constexpr double most = 2;
-    const Eigen::Index n = map.rows();
+    const Eigen::Index n = map.size();
     Eigen::MatrixXd vectors(n, steps);
     Eigen::VectorXd next = random_direction(n);
     take_out(space, next);
@@ -110,11 +156,11 @@ double norm_of_power(const Eigen::MatrixXd& map, const Eigen::MatrixXd& space, i
     while (size < steps) {
         vectors.col(size) = next;
         for (int i = 0; i < power; ++i) {
-            next = map * next;
+            next = map.times(next);
             take_out(space, next);
         }
         for (int i = 0; i < power; ++i) {
-            next = map.transpose() * next;
+            next = map.transposed_times(next);
             take_out(space, next);
         }
         ++size;
@@ -131,12 +177,15 @@ double norm_of_power(const Eigen::MatrixXd& map, const Eigen::MatrixXd& space, i
 }
 
 /// Returns the eigenvalues that belong to an invariant subspace; none when it is not invariant.
-std::optional<std::vector<std::complex<double>>> values_in(const Eigen::MatrixXd& matrix, Eigen::MatrixXd& space) {
+std::optional<std::vector<std::complex<double>>> values_in(const LinearMap& map, const Eigen::MatrixXd& space) {
     constexpr double invariant = 1e-11; // relative to the matrix's effect on it
     std::vector<std::complex<double>> result;
     if (space.cols() == 0)
         return result;
-    const Eigen::MatrixXd image = matrix * space, inside = space.transpose() * image;
+    Eigen::MatrixXd image(space.rows(), space.cols());
+    for (Eigen::Index i = 0; i < space.cols(); ++i)
+        image.col(i) = map.times(space.col(i));
+    const Eigen::MatrixXd inside = space.transpose() * image;
     const auto values = eigenvalues(inside);
     if (!values || !((image - space * inside).norm() <= invariant * image.norm()))
         return std::nullopt;
@@ -145,25 +194,20 @@ std::optional<std::vector<std::complex<double>>> values_in(const Eigen::MatrixXd
     return result;
 }
 
-} // namespace
-
-std::optional<LeadingEigenvalues> leading_eigenvalues(const Eigen::MatrixXd& matrix) {
+/// @param power of the map, the first to begin with
+std::optional<LeadingEigenvalues> separated(const LinearMap& map, Power power) {
     constexpr int repetitions = 16; // of the power that is at hand, of which the norm is taken
     constexpr double closest = 0.999;
-    if (matrix.rows() <= 2 * most_vectors)
+    if (map.size() <= 2 * most_vectors)
         return std::nullopt;
-    Eigen::MatrixXd power = matrix;
-    int squared = 0;
     for (const Separation& here : separations) {
-        for (; squared < here.squarings; ++squared)
-            power = Eigen::MatrixXd(power * power);
-        if (!power.allFinite())
+        if (!power.square_to(here.squarings))
             return std::nullopt;
-        const double exponent = std::pow(2.0, squared);
-        auto space = leading_space(power, std::pow(here.least, exponent));
+        const double exponent = std::pow(2.0, here.squarings);
+        const auto space = leading_space(power, std::pow(here.least, exponent));
         if (!space)
             continue;
-        auto values = values_in(matrix, *space);
+        auto values = values_in(map, *space);
         if (!values)
             return std::nullopt;
         const double within = std::pow(norm_of_power(power, *space, repetitions), 1 / (exponent * repetitions));
@@ -171,6 +215,16 @@ std::optional<LeadingEigenvalues> leading_eigenvalues(const Eigen::MatrixXd& mat
             return LeadingEigenvalues{std::move(*values), within};
     }
     return std::nullopt;
+}
+
+} // namespace
+
+std::optional<LeadingEigenvalues> leading_eigenvalues(const Eigen::MatrixXd& matrix) {
+    return separated(Power(matrix), Power(matrix));
+}
+
+std::optional<LeadingEigenvalues> leading_eigenvalues(const LinearMap& map) {
+    return separated(map, Power(map));
 }
 
 } // namespace graze

@@ -8,6 +8,15 @@
 
 namespace graze {
 
+/// A square matrix that is known by its products with vectors.
+class LinearMap {
+public:
+    virtual ~LinearMap() = default;
+    virtual Eigen::Index size() const = 0;
+    virtual Eigen::VectorXd times(const Eigen::VectorXd& vector) const = 0;
+    virtual Eigen::VectorXd transposed_times(const Eigen::VectorXd& vector) const = 0;
+};
+
 /// The eigenvalues of a large matrix that lie outside a circle.
 struct LeadingEigenvalues {
     std::vector<std::complex<double>> values; ///< largest first
@@ -22,5 +31,8 @@ struct LeadingEigenvalues {
 /// The random vectors are always the same.
 /// @return none when too many eigenvalues are near the unit circle, or the matrix is small or not finite
 std::optional<LeadingEigenvalues> leading_eigenvalues(const Eigen::MatrixXd& matrix);
+/// The same for a matrix whose products with vectors take much less time than those of a full one. Low powers of it are
+/// not computed, but applied factor by factor.
+std::optional<LeadingEigenvalues> leading_eigenvalues(const LinearMap& map);
 
 } // namespace graze

@@ -123,7 +123,7 @@ bool OrbitFinder::fail() {
 }
 
 bool OrbitFinder::is_active(std::size_t state) const {
-    return std::ranges::find(jacobian_.active, state) != jacobian_.active.end();
+    return std::ranges::binary_search(jacobian_.active, state); // they are in rising order
 }
 
 bool OrbitFinder::proceed() {
