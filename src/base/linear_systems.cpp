@@ -1,5 +1,7 @@
 #include "base/linear_systems.hpp"
 
+#include "base/many_states.hpp"
+
 #include <limits>
 
 namespace graze {
@@ -27,7 +29,11 @@ double PartialLU::determinant() const {
 }
 
 bool PartialLU::is_regular() const {
-    return factors_.rcond() > std::numeric_limits<double>::epsilon();
+    return reciprocal_condition() > std::numeric_limits<double>::epsilon();
+}
+
+double PartialLU::reciprocal_condition() const {
+    return factors_.rcond();
 }
 
 ComplexLU::ComplexLU(const Eigen::MatrixXcd& matrix) : factors_(matrix) {
@@ -79,6 +85,26 @@ template class FullLU<double>;
 // All that is asked of complex ones.
 template FullLU<std::complex<double>>::FullLU(const Matrix&);
 template auto FullLU<std::complex<double>>::solve(const Vector&) const -> Vector;
+
+void CheckedLU::compute(const Eigen::MatrixXd& matrix) {
+    partial_.reset();
+    if (matrix.rows() > many_states)
+        partial_.emplace(matrix);
+    else
+        full_.compute(matrix);
+}
+
+Eigen::VectorXd CheckedLU::solve(const Eigen::VectorXd& right) const {
+    return partial_ ? partial_->solve(right) : full_.solve(right);
+}
+
+bool CheckedLU::is_invertible() const {
+    return partial_ ? partial_->is_regular() : full_.is_invertible();
+}
+
+double CheckedLU::determinant() const {
+    return partial_ ? partial_->determinant() : full_.determinant();
+}
 
 PivotedQR::PivotedQR(const Eigen::MatrixXd& matrix, std::optional<double> threshold)
     : factors_(matrix.rows(), matrix.cols()) {

@@ -23,6 +23,7 @@ public:
     double determinant() const;
     /// True when the matrix, which may then have been singular, is regular to working precision.
     bool is_regular() const;
+    double reciprocal_condition() const; ///< an estimate
 
 private:
     Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
@@ -63,6 +64,23 @@ private:
 };
 extern template class FullLU<double>;
 extern template class FullLU<std::complex<double>>;
+
+/// LU factors of a square matrix that is expected to be regular: with full pivoting, or, where it is so large that this
+/// takes many times as long, with partial pivoting.
+class CheckedLU {
+public:
+    CheckedLU() = default;
+    explicit CheckedLU(const Eigen::MatrixXd& matrix) { compute(matrix); }
+    void compute(const Eigen::MatrixXd& matrix);
+    Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
+    /// True when the matrix is regular to working precision.
+    bool is_invertible() const;
+    double determinant() const;
+
+private:
+    FullLU<double> full_;
+    std::optional<PartialLU<double>> partial_; ///< in its place
+};
 
 /// QR factors, with column pivoting, of a matrix of any shape: for least squares.
 class PivotedQR {

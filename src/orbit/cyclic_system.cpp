@@ -240,12 +240,6 @@ CyclicSystem::Closed CyclicSystem::close(const Eigen::MatrixXd& borders) const {
     Closed closed;
     const Eigen::MatrixXd matrix = condense(borders, closed.shares_);
     const bool finite = matrix.allFinite();
-    if (index(n_) > many_states) {
-        closed.large_lu_.emplace(matrix);
-        closed.determinant_ = sign_ * closed.large_lu_->determinant();
-        closed.regular_ = finite && closed.large_lu_->is_regular();
-        return closed;
-    }
     closed.lu_.compute(matrix);
     closed.determinant_ = sign_ * closed.lu_.determinant();
     closed.regular_ = finite && closed.lu_.is_invertible();
@@ -273,7 +267,7 @@ bool CyclicSystem::solve(const Closed& closed, const Eigen::VectorXd* blocks, co
     for (std::size_t k = 0; k < constants.size(); ++k)
         if (closed.shares_[k].size() > 0)
             values.tail(q) -= closed.shares_[k] * constants[k];
-    const Eigen::VectorXd first = closed.large_lu_ ? closed.large_lu_->solve(values) : closed.lu_.solve(values);
+    const Eigen::VectorXd first = closed.lu_.solve(values);
     solution = expand(first, first.head(n), constants);
     return solution.allFinite();
 }

@@ -3,7 +3,6 @@
 #include "base/linear_systems.hpp"
 #include "orbit/eigen_index.hpp"
 
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -60,8 +59,7 @@ public:
 
     private:
         friend class CyclicSystem;
-        FullLU<double> lu_;
-        std::optional<PartialLU> large_lu_; ///< in its place, with many states
+        CheckedLU lu_;
         /// Per segment: coefficients by which its equations enter the borders; empty: zero.
         std::vector<Eigen::MatrixXd> shares_;
         bool regular_ = false;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/many_states.hpp"
+
 #include <Eigen/Core>
 
 #include <cstddef>
@@ -30,9 +32,5 @@ inline std::span<double> numbers_of(RowMajor& matrix) {
 inline std::vector<double> numbers_of(const Eigen::VectorXd& vector) {
     return {vector.begin(), vector.end()};
 }
-
-/// Number of states above which work in blocks takes the place of steps of one column, and multipliers that do not
-/// matter are not computed.
-inline constexpr Eigen::Index many_states = 256;
 
 } // namespace graze

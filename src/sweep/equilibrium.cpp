@@ -141,7 +141,7 @@ bool EquilibriumFinder::solve(Equilibrium& equilibrium, std::span<const double> 
             balance(equilibrium, has_size);
             rates = rates.cwiseProduct(given).cwiseQuotient(equilibrium.scale);
         }
-        const FullLU<double> factors(equilibrium.field);
+        const CheckedLU factors(equilibrium.field);
         if (!factors.is_invertible())
             return false;
         const Eigen::VectorXd correction = factors.solve(rates);
@@ -169,7 +169,9 @@ bool EquilibriumFinder::solve(Equilibrium& equilibrium, std::span<const double> 
 void EquilibriumFinder::balance(Equilibrium& equilibrium, const std::vector<bool>& has_size) const {
     const auto size = equilibrium.scale.size();
     Eigen::MatrixXd& field = equilibrium.field;
-    for (Eigen::Index sweep = 0; sweep < size; ++sweep)
+    bool changed = true;
+    for (Eigen::Index sweep = 0; sweep < size && changed; ++sweep) {
+        changed = false;
         for (Eigen::Index i = 0; i < size; ++i) {
             double row = 0, column = 0;
             for (Eigen::Index j = 0; j < size; ++j)
@@ -184,7 +186,9 @@ void EquilibriumFinder::balance(Equilibrium& equilibrium, const std::vector<bool
             equilibrium.scale[i] *= ratio;
             field.row(i) /= ratio;
             field.col(i) *= ratio;
+            changed = true;
         }
+    }
 }
 
 /// Returns value k of a clock among evenly spread ones.
@@ -196,7 +200,7 @@ double EquilibriumFinder::phase_of(std::size_t k, std::size_t clock) const {
 bool EquilibriumFinder::rests_at_all_phases(Equilibrium& equilibrium) {
     if (clocks_.empty() || equilibrium.active.empty())
         return true;
-    const FullLU<double> factors(equilibrium.field);
+    const CheckedLU factors(equilibrium.field);
     Eigen::MatrixXd now = equilibrium.field;
     const double largest = equilibrium.field.cwiseAbs().maxCoeff();
     std::vector<double> at = equilibrium.state;

@@ -1,6 +1,7 @@
 #include "sweep/orbit_finder.hpp"
 
 #include "base/concatenated.hpp"
+#include "base/many_states.hpp"
 #include "base/neutral_multipliers.hpp"
 #include "flow/cyclic.hpp"
 
@@ -139,15 +140,21 @@ bool OrbitFinder::proceed() {
                          trajectory_->mode() == mode_;
     if (!arrived || !linearise())
         return fail();
-    return stage_ == Stage::iterating ? iterate() : record();
+    if (stage_ == Stage::iterating)
+        return iterate();
+    return find_spectrum() ? record() : fail();
 }
 
-/// Computes the derivative of the return map and its spectrum at the start of the completed run.
+/// Computes the derivative of the return map at the start of the completed run.
 bool OrbitFinder::linearise() {
     Eigen::MatrixXd tangents;
     if (!find_tangents(tangents) || !map_->project(workspace_, mode_, watcher_.recent(0).state, tangents))
         return false;
     jacobian_ = return_jacobian(*map_, tangents);
+    return true;
+}
+
+bool OrbitFinder::find_spectrum() {
     auto spectrum = return_spectrum(*map_, jacobian_, scale_);
     if (!spectrum)
         return false;
@@ -158,6 +165,8 @@ bool OrbitFinder::linearise() {
 bool OrbitFinder::iterate() {
     const auto states = static_cast<Eigen::Index>(map_->states());
     const std::span<const double> image = watcher_.recent(0).state;
+    if (states <= many_states && !find_spectrum())
+        return fail();
     Eigen::VectorXd defect(states);
     subtract_states(image, point_, periods_, {defect.data(), map_->states()});
     const Eigen::VectorXd correction = newton_correction(jacobian_, defect, scale_);
@@ -178,6 +187,9 @@ bool OrbitFinder::iterate() {
         if (field_->keeps_sign(i) && !(point_[i] * before > 0))
             point_[i] = 0;
     }
+    // The eigenvalues of a large matrix take longer than anything else.
+    if (states > many_states && size > sits && !find_spectrum())
+        return fail();
     clearly_unstable_ = !multipliers().empty() && std::abs(multipliers().front()) > most_unstable && size > sits;
     if (clearly_unstable_)
         return fail();

@@ -53,6 +53,7 @@ private:
     bool find_tangents(Eigen::MatrixXd& tangents);
     bool carries() const { return !derivatives_ || sticks_; }
     bool linearise();
+    bool find_spectrum();
     bool iterate();
     bool record();
     bool others_return(std::span<const double> image) const;

@@ -2,12 +2,15 @@
 
 #include "base/decompositions.hpp"
 #include "base/linear_systems.hpp"
+#include "base/many_states.hpp"
 #include "flow/cyclic.hpp"
 #include "graze/symbolic/transform.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 namespace graze {
 
@@ -26,6 +29,73 @@ Eigen::MatrixXd scaled_matrix(const ReturnJacobian& jacobian, const Eigen::Vecto
             matrix(i, j) = jacobian.matrix(row, column) * scale[column] / scale[row];
         }
     return matrix;
+}
+
+/// Returns the solution of many equations that are regular by far; nothing where they are few or may be singular.
+std::optional<Eigen::VectorXd> solution_of_many(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right) {
+    constexpr double regular_by_far = 1e-8; // reciprocal condition number
+    if (matrix.rows() <= many_states)
+        return std::nullopt;
+    const PartialLU<double> factors(matrix);
+    if (!(factors.reciprocal_condition() > regular_by_far))
+        return std::nullopt;
+    return factors.solve(right);
+}
+
+/// The eigenvalues of a matrix, and right and left eigenvectors of the largest one.
+struct Leading {
+    Eigen::VectorXcd values;
+    std::vector<Eigen::Index> order; ///< largest first
+    Eigen::VectorXcd right, left;
+};
+
+/// Finds the eigenvectors of an eigenvalue by inverse iteration, in a fraction of the time that those of all take.
+bool find_vectors(const Eigen::MatrixXd& matrix, std::complex<double> value, Leading& result) {
+    constexpr double beside = 1e-10; // relative to the matrix: the factors must be regular
+    constexpr int iterations = 3;
+    const Eigen::Index size = matrix.rows();
+    const std::complex<double> shift = value + beside * matrix.norm() / std::sqrt(static_cast<double>(size));
+    const PartialLU<std::complex<double>> factors(matrix - shift * Eigen::MatrixXcd::Identity(size, size));
+    const auto begin = Eigen::VectorXcd::NullaryExpr(
+        size, [](Eigen::Index i) { return std::complex<double>(std::cos(1.7 * static_cast<double>(i) + 0.3)); });
+    result.right = result.left = begin.normalized();
+    for (int i = 0; i < iterations; ++i) {
+        result.right = factors.solve(result.right).normalized();
+        result.left = factors.solve_transposed(result.left).normalized();
+    }
+    return result.right.allFinite() && result.left.allFinite();
+}
+
+std::optional<Leading> leading_of(const Eigen::MatrixXd& matrix) {
+    if (!matrix.allFinite())
+        return std::nullopt;
+    Leading result;
+    const bool many = matrix.rows() > many_states;
+    std::optional<Eigensystem> system, transposed;
+    if (many) {
+        const auto values = eigenvalues(matrix);
+        if (!values)
+            return std::nullopt;
+        result.values = *values;
+    } else {
+        system = eigensystem(matrix);
+        transposed = eigensystem(matrix.transpose());
+        if (!system || !transposed)
+            return std::nullopt;
+        result.values = system->values;
+    }
+    const Eigen::VectorXcd& values = result.values;
+    result.order.resize(static_cast<std::size_t>(values.size()));
+    std::iota(result.order.begin(), result.order.end(), Eigen::Index{0});
+    std::ranges::stable_sort(result.order, [&](auto a, auto b) { return std::abs(values[a]) > std::abs(values[b]); });
+    const std::complex<double> first = values[result.order[0]];
+    if (many)
+        return find_vectors(matrix, first, result) ? std::optional(result) : std::nullopt;
+    result.right = system->vectors.col(result.order[0]);
+    Eigen::Index same = 0;
+    (transposed->values.array() - first).abs().minCoeff(&same);
+    result.left = transposed->vectors.col(same);
+    return result;
 }
 
 } // namespace
@@ -188,7 +258,11 @@ Eigen::VectorXd newton_correction(const ReturnJacobian& jacobian, const Eigen::V
     constexpr double errors_of_derivatives = 1e-12;
     const double largest = matrix.colwise().norm().maxCoeff();
     const double usual = std::numeric_limits<double>::epsilon() * static_cast<double>(size);
-    const Eigen::VectorXd solution = shortest_solution(
+    Eigen::VectorXd solution;
+    if (const auto regular = solution_of_many(matrix, right))
+        solution = *regular;
+    else
+        solution = shortest_solution(
         matrix, right, largest > 0 ? std::optional(std::max(usual, errors_of_derivatives / largest)) : std::nullopt);
     for (Eigen::Index i = 0; i < size; ++i) {
         const auto state = static_cast<Eigen::Index>(jacobian.active[static_cast<std::size_t>(i)]);
@@ -205,27 +279,20 @@ std::optional<ReturnSpectrum> return_spectrum(const SectionMap& map, const Retur
     if (jacobian.active.empty())
         return result;
     const Eigen::MatrixXd matrix = scaled_matrix(jacobian, scale);
-    const auto system = eigensystem(matrix), transposed = eigensystem(matrix.transpose());
-    if (!matrix.allFinite() || !system || !transposed)
+    const auto leading = leading_of(matrix);
+    if (!leading)
         return std::nullopt;
-    const Eigen::VectorXcd& values = system->values;
-    std::vector<Eigen::Index> order(jacobian.active.size());
-    for (std::size_t i = 0; i < order.size(); ++i)
-        order[i] = static_cast<Eigen::Index>(i);
-    std::ranges::stable_sort(order, [&](auto a, auto b) { return std::abs(values[a]) > std::abs(values[b]); });
+    const Eigen::VectorXcd& values = leading->values;
+    const std::vector<Eigen::Index>& order = leading->order;
     // At a crossing section, the projection along the flow adds one multiplier zero. If there is a single state, this
     // is the only one: the return map is constant, and the value is round-off.
     const std::size_t count = map.is_phase() || order.size() == 1 ? order.size() : order.size() - 1;
     for (std::size_t i = 0; i < count; ++i)
         result.multipliers.push_back(!map.is_phase() && order.size() == 1 ? 0.0 : values[order[i]]);
-    const Eigen::VectorXd leading = system->vectors.col(order[0]).real();
-    Eigen::Index same = 0;
-    (transposed->values.array() - values[order[0]]).abs().minCoeff(&same);
-    const Eigen::VectorXcd functional = transposed->vectors.col(same);
     for (std::size_t i = 0; i < jacobian.active.size(); ++i) {
         const auto state = static_cast<Eigen::Index>(jacobian.active[i]);
-        result.direction[state] = leading[static_cast<Eigen::Index>(i)] * scale[state];
-        result.functional[state] = functional[static_cast<Eigen::Index>(i)];
+        result.direction[state] = leading->right[static_cast<Eigen::Index>(i)].real() * scale[state];
+        result.functional[state] = leading->left[static_cast<Eigen::Index>(i)];
     }
     return result;
 }
