@@ -13,8 +13,8 @@ namespace graze {
 
 /// Derivatives along a mode of many states of which each acts on few others. Within a step a disturbance reaches only
 /// the states that are at most as many couplings away as the order of the series. States whose reaches do not overlap
-/// are therefore disturbed together: the place of a derivative tells which of them it belongs to (A. R. Curtis, M. J. D.
-/// Powell and J. K. Reid, "On the estimation of sparse Jacobian matrices", J. Inst. Maths Applics 13, 1974). The
+/// are therefore disturbed together: the place of a derivative tells which of them it belongs to (A. R. Curtis, M. J.
+/// D. Powell and J. K. Reid, "On the estimation of sparse Jacobian matrices", J. Inst. Maths Applics 13, 1974). The
 /// derivatives along an arc are the product of those of its steps.
 class GroupedDirections {
 public:
@@ -29,7 +29,8 @@ public:
     /// Number of groups, without parameters.
     std::size_t groups() const { return groups_; }
 
-    /// The derivatives of one step, in groups: `begin` them with the seeds, `carry` or `cross` to the space for the end.
+    /// The derivatives of one step, in groups: `begin` them with the seeds, `carry` or `cross` to the space for the
+    /// end.
     TangentSteps& steps() { return steps_; }
     std::span<const double> seeds() const { return seeds_; }
     std::span<double> at_end() { return at_end_; }

@@ -188,9 +188,10 @@ bool OrbitFinder::iterate() {
             point_[i] = 0;
     }
     // The eigenvalues of a large matrix take longer than anything else.
-    if (states > many_states && size > sits && !find_spectrum())
-        return fail();
-    clearly_unstable_ = !multipliers().empty() && std::abs(multipliers().front()) > most_unstable && size > sits;
+    if (states > many_states)
+        clearly_unstable_ = size > sits && has_multiplier_beyond(jacobian_, scale_, most_unstable);
+    else
+        clearly_unstable_ = !multipliers().empty() && std::abs(multipliers().front()) > most_unstable && size > sits;
     if (clearly_unstable_)
         return fail();
     start_run(size > small_correction && !stalls ? Stage::iterating : Stage::recording);

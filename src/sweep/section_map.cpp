@@ -1,6 +1,7 @@
 #include "sweep/section_map.hpp"
 
 #include "base/decompositions.hpp"
+#include "base/leading_eigenvalues.hpp"
 #include "base/linear_systems.hpp"
 #include "base/many_states.hpp"
 #include "flow/cyclic.hpp"
@@ -262,8 +263,9 @@ Eigen::VectorXd newton_correction(const ReturnJacobian& jacobian, const Eigen::V
     if (const auto regular = solution_of_many(matrix, right))
         solution = *regular;
     else
-        solution = shortest_solution(
-        matrix, right, largest > 0 ? std::optional(std::max(usual, errors_of_derivatives / largest)) : std::nullopt);
+        solution = shortest_solution(matrix, right,
+                                     largest > 0 ? std::optional(std::max(usual, errors_of_derivatives / largest))
+                                                 : std::nullopt);
     for (Eigen::Index i = 0; i < size; ++i) {
         const auto state = static_cast<Eigen::Index>(jacobian.active[static_cast<std::size_t>(i)]);
         correction[state] = solution[i] * scale[state];
@@ -295,6 +297,14 @@ std::optional<ReturnSpectrum> return_spectrum(const SectionMap& map, const Retur
         result.functional[state] = leading->left[static_cast<Eigen::Index>(i)];
     }
     return result;
+}
+
+bool has_multiplier_beyond(const ReturnJacobian& jacobian, const Eigen::VectorXd& scale, double radius) {
+    const Eigen::MatrixXd matrix = scaled_matrix(jacobian, scale);
+    if (const auto leading = leading_eigenvalues(matrix))
+        return !leading->values.empty() && std::abs(leading->values.front()) > radius;
+    const auto all = matrix.size() > 0 && matrix.allFinite() ? eigenvalues(matrix) : std::nullopt;
+    return all && all->cwiseAbs().maxCoeff() > radius;
 }
 
 } // namespace graze

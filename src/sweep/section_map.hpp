@@ -84,5 +84,7 @@ struct ReturnSpectrum {
 /// @return nothing if the eigenvalues could not be computed
 std::optional<ReturnSpectrum> return_spectrum(const SectionMap& map, const ReturnJacobian& jacobian,
                                               const Eigen::VectorXd& scale);
+/// True if a multiplier is larger than a radius, of at least 1. Of many states not all multipliers are computed.
+bool has_multiplier_beyond(const ReturnJacobian& jacobian, const Eigen::VectorXd& scale, double radius);
 
 } // namespace graze

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <utility>
 
 namespace graze::leading_eigenvalues_test {
 
@@ -99,6 +100,39 @@ TEST(LeadingEigenvalues, AreNotFoundWhereManyAreNearTheUnitCircle) {
     EXPECT_FALSE(leading_eigenvalues(Eigen::MatrixXd::Identity(3, 3) * 0.1));
     const auto twice = leading_eigenvalues(matrix_with({1.1, 1.1}, 0.8));
     EXPECT_TRUE(!twice || twice->values.size() == 2);
+}
+
+/// A matrix that is known by its products.
+class Products : public LinearMap {
+public:
+    explicit Products(Eigen::MatrixXd matrix) : matrix_(std::move(matrix)) {}
+    Eigen::Index size() const override { return matrix_.rows(); }
+    Eigen::VectorXd times(const Eigen::VectorXd& vector) const override { return matrix_ * vector; }
+    Eigen::VectorXd transposed_times(const Eigen::VectorXd& vector) const override {
+        return matrix_.transpose() * vector;
+    }
+
+private:
+    Eigen::MatrixXd matrix_;
+};
+
+/// Products with vectors give the same, whether low powers are enough or high ones are needed.
+TEST(LeadingEigenvalues, OfAMapAreThoseOfItsMatrix) {
+    for (const double circle : {0.5, 0.87, 0.97, 0.99}) {
+        const Eigen::MatrixXd matrix = matrix_with({1.3, {0.6, 0.9}, -0.999}, circle, 0.1);
+        const auto expected = leading_eigenvalues(matrix), found = leading_eigenvalues(Products(matrix));
+        ASSERT_EQ(found.has_value(), expected.has_value()) << circle;
+        if (!found)
+            continue;
+        EXPECT_NEAR(found->others_within, expected->others_within, 1e-9) << circle;
+        ASSERT_EQ(found->values.size(), expected->values.size()) << circle;
+        for (std::size_t i = 0; i < found->values.size(); ++i)
+            EXPECT_NEAR(std::abs(found->values[i] - expected->values[i]), 0, 1e-11) << circle;
+    }
+    EXPECT_TRUE(leading_eigenvalues(Products(matrix_with({1.3}, 0.5))));
+    EXPECT_FALSE(leading_eigenvalues(Products(matrix_with({}, 1.2))));
+    EXPECT_FALSE(
+        leading_eigenvalues(Products(Eigen::MatrixXd::Constant(size, size, std::numeric_limits<double>::infinity()))));
 }
 
 TEST(LeadingEigenvalues, ZeroIsAMatrixToo) {

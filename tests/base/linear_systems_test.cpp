@@ -47,6 +47,24 @@ TEST(LinearSystems, SingularMatricesAreRecognised) {
     EXPECT_NEAR(FullLU<double>(nearly).reciprocal_condition(), 1e-9, 1e-20);
 }
 
+TEST(LinearSystems, LargeMatricesAreSolvedAndCheckedToo) {
+    for (const Eigen::Index size : {6, 300}) {
+        Eigen::MatrixXd matrix = wave_matrix(size, size);
+        matrix.diagonal().array() += 100;
+        const Eigen::VectorXd side = wave_matrix(size, 1);
+        CheckedLU factors(matrix);
+        EXPECT_TRUE(factors.is_invertible());
+        EXPECT_LE((matrix * factors.solve(side) - side).norm(), round_off);
+        matrix /= 100; // the determinant stays in range
+        factors.compute(matrix);
+        EXPECT_NEAR(factors.determinant() / determinant(matrix), 1, round_off);
+        matrix.row(3) = matrix.row(0) - matrix.row(1);
+        factors.compute(matrix);
+        EXPECT_FALSE(factors.is_invertible());
+    }
+    EXPECT_NEAR(PartialLU<double>(Eigen::Matrix2d{{1, 0}, {0, 1e-9}}).reciprocal_condition(), 1e-9, 1e-20);
+}
+
 TEST(LinearSystems, LeastSquaresResidualsAreOrthogonalToTheColumns) {
     const Eigen::MatrixXd matrix = wave_matrix(7, 3);
     const Eigen::VectorXd side = wave_matrix(7, 1);

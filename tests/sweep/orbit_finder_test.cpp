@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <numbers>
+#include <string>
+#include <vector>
 
 namespace graze::orbit_finder_test {
 
@@ -68,6 +71,35 @@ TEST(OrbitFinder, EachStateThatReturnsAfterTwoTicksHasAMultiplierOne) {
 
 TEST(OrbitFinder, ConstantStatesHaveNoMultiplier) {
     expect_multipliers(settle(testing::ticking("x = 0.25\nz = 0", "x = 0, z = 0", "z = \"0.5*z + x\"")), {0.5});
+}
+
+/// A chain of many oscillators with the same damping c, the first of which is forced: all multipliers have the
+/// magnitude exp(-c T / 2), with those of the waves of the chain without damping as closed forms.
+TEST(OrbitFinder, OrbitsOfManyStatesAreFoundWithAllTheirMultipliers) {
+    constexpr std::size_t oscillators = 130;
+    constexpr double damping = 0.2, pi = std::numbers::pi;
+    std::string states, rates;
+    for (std::size_t i = 1; i <= oscillators; ++i) {
+        states += fmt::format("x{0} = 0\nv{0} = 0\n", i);
+        rates += fmt::format("x{0} = 'v{0}', v{0} = '-3*x{0} - {1}*v{0}{2}{3}{4}', ", i, damping,
+                             i > 1 ? fmt::format(" + x{}", i - 1) : "",
+                             i < oscillators ? fmt::format(" + x{}", i + 1) : "", i > 1 ? "" : " + cos(theta)");
+    }
+    rates.resize(rates.size() - 2);
+    const PointResult result = settle(testing::OneMode{.states = states, .rates = rates, .clock = "1"}.model());
+    ASSERT_EQ(result.label, Label::periodic) << result.outcome.detail;
+    ASSERT_EQ(result.multipliers.size(), 2 * oscillators);
+    std::vector<std::complex<double>> waves;
+    for (std::size_t k = 1; k <= oscillators; ++k) {
+        const double square = 3 - 2 * std::cos(pi * static_cast<double>(k) / (oscillators + 1)),
+                     frequency = std::sqrt(square - 0.25 * damping * damping);
+        for (const double sign : {1.0, -1.0})
+            waves.push_back(std::polar(std::exp(-damping * pi), sign * 2 * pi * frequency));
+    }
+    for (const std::complex<double> wave : waves) {
+        const auto apart = [&](auto one) { return std::abs(one - wave); };
+        EXPECT_LT(apart(*std::ranges::min_element(result.multipliers, {}, apart)), 1e-9);
+    }
 }
 
 } // namespace graze::orbit_finder_test
