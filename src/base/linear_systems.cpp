@@ -36,9 +36,7 @@ double PartialLU::reciprocal_condition() const {
     return factors_.rcond();
 }
 
-ComplexLU::ComplexLU(const Eigen::MatrixXcd& matrix) : factors_(matrix) {
-    factors_.setThreshold(0); // no pivot counts as zero
-}
+ComplexLU::ComplexLU(const Eigen::MatrixXcd& matrix) : factors_(matrix) {}
 
 Eigen::VectorXcd ComplexLU::solve(const Eigen::VectorXcd& right) const {
     return factors_.solve(right);

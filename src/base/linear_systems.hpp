@@ -29,8 +29,7 @@ private:
     Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
 };
 
-/// LU factors of a complex square matrix that is known to be regular. They have full pivoting: that of rows alone would
-/// be the only reason to compile products of complex matrices.
+/// LU factors, with row pivoting, of a complex square matrix that is known to be regular.
 class ComplexLU {
 public:
     explicit ComplexLU(const Eigen::MatrixXcd& matrix);
@@ -38,7 +37,7 @@ public:
     Eigen::VectorXcd solve_transposed(const Eigen::VectorXcd& right) const;
 
 private:
-    Eigen::FullPivLU<Eigen::MatrixXcd> factors_;
+    Eigen::PartialPivLU<Eigen::MatrixXcd> factors_;
 };
 
 /// LU factors, with full pivoting, of a square matrix that may be singular.
@@ -79,7 +78,7 @@ public:
 
 private:
     FullLU<double> full_;
-    std::optional<PartialLU<double>> partial_; ///< in its place
+    std::optional<PartialLU> partial_; ///< in its place
 };
 
 /// QR factors, with column pivoting, of a matrix of any shape: for least squares.

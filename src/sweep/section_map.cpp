@@ -37,7 +37,7 @@ std::optional<Eigen::VectorXd> solution_of_many(const Eigen::MatrixXd& matrix, c
     constexpr double regular_by_far = 1e-8; // reciprocal condition number
     if (matrix.rows() <= many_states)
         return std::nullopt;
-    const PartialLU<double> factors(matrix);
+    const PartialLU factors(matrix);
     if (!(factors.reciprocal_condition() > regular_by_far))
         return std::nullopt;
     return factors.solve(right);
@@ -56,7 +56,7 @@ bool find_vectors(const Eigen::MatrixXd& matrix, std::complex<double> value, Lea
     constexpr int iterations = 3;
     const Eigen::Index size = matrix.rows();
     const std::complex<double> shift = value + beside * matrix.norm() / std::sqrt(static_cast<double>(size));
-    const PartialLU<std::complex<double>> factors(matrix - shift * Eigen::MatrixXcd::Identity(size, size));
+    const ComplexLU factors(matrix - shift * Eigen::MatrixXcd::Identity(size, size));
     const auto begin = Eigen::VectorXcd::NullaryExpr(
         size, [](Eigen::Index i) { return std::complex<double>(std::cos(1.7 * static_cast<double>(i) + 0.3)); });
     result.right = result.left = begin.normalized();

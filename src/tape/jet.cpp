@@ -456,10 +456,10 @@ void TapeJet::find_disagreement(const Jet& end, const EndAllowance& allowance, s
 bool is_supported(InstructionSet set) {
 #if defined(__x86_64__)
     [[maybe_unused]] const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-                          __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
+                                           __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
     [[maybe_unused]] const bool has_avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-                            __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
-                            __builtin_cpu_supports("avx512vl");
+                                             __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+                                             __builtin_cpu_supports("avx512vl");
 #endif
     switch (set) {
 #if defined(GRAZE_WITH_AVX2)

@@ -62,7 +62,7 @@ TEST(LinearSystems, LargeMatricesAreSolvedAndCheckedToo) {
         factors.compute(matrix);
         EXPECT_FALSE(factors.is_invertible());
     }
-    EXPECT_NEAR(PartialLU<double>(Eigen::Matrix2d{{1, 0}, {0, 1e-9}}).reciprocal_condition(), 1e-9, 1e-20);
+    EXPECT_NEAR(PartialLU(Eigen::Matrix2d{{1, 0}, {0, 1e-9}}).reciprocal_condition(), 1e-9, 1e-20);
 }
 
 TEST(LinearSystems, LeastSquaresResidualsAreOrthogonalToTheColumns) {
