@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 namespace graze {
 
@@ -199,7 +200,7 @@ std::vector<double> BranchState::rates_at(const Orbit& orbit, std::size_t segmen
     return system().mode(orbit.signature[segment].mode).rates(concatenated(orbit.starts[segment], orbit.parameters));
 }
 
-std::optional<DescribedPoint> BranchState::describe(const ContinuationPoint& at) {
+std::optional<DescribedPoint> BranchState::describe(const ContinuationPoint& at, std::optional<PointType> only) {
     OrbitEquations& equations = problem_->equations();
     if (!problem_->evaluate(at.u))
         return std::nullopt;
@@ -224,16 +225,23 @@ std::optional<DescribedPoint> BranchState::describe(const ContinuationPoint& at)
     result.stable = is_stable(result.solution);
     std::vector<Degeneracy> degeneracies;
     if (settings_.kept && !keeps_branch_point())
-        degeneracies = held_[settings_.fixed_monitors() + kept_conditions() - 1]->degeneracies(equations, evaluation);
+        degeneracies =
+            held_[settings_.fixed_monitors() + kept_conditions() - 1]->degeneracies(equations, evaluation, only);
     const auto rise = rise_of_family(true);
     std::vector<BranchTest> tests = branch_tests({equations, evaluation, result.solution, at.tangent, at.determinant,
                                                   result.monitors, settings_, degeneracies, rise ? &*rise : nullptr});
     return DescribedPoint{std::move(result), std::move(tests)};
 }
 
-std::optional<DescribedPoint> BranchState::describe_between(double fraction) {
+std::optional<DescribedPoint> BranchState::describe_between(double fraction, std::optional<PointType> only,
+                                                            std::vector<ContinuationPoint>* known) {
     ContinuationPoint at;
-    return continuation_->between(fraction, at) ? describe(at) : std::nullopt;
+    if (!continuation_->between(fraction, at,
+                                known ? std::span(std::as_const(*known)) : std::span<const ContinuationPoint>()))
+        return std::nullopt;
+    if (known)
+        known->push_back(at);
+    return describe(at, only);
 }
 
 std::optional<double> BranchState::error_of(const Orbit& orbit, const OrbitDirection& tangent) {

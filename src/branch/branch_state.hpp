@@ -61,9 +61,12 @@ public:
     std::vector<double> rates_at(const Orbit& orbit, std::size_t segment) const;
 
     /// Describes a point of the branch; empty where its equations are not defined.
-    std::optional<DescribedPoint> describe(const ContinuationPoint& at);
+    /// @param only the type of the only test that is needed: costly tests of other types are then NaN
+    std::optional<DescribedPoint> describe(const ContinuationPoint& at, std::optional<PointType> only = std::nullopt);
     /// The same at a fraction of the last step; empty also where Newton's method does not converge.
-    std::optional<DescribedPoint> describe_between(double fraction);
+    /// @param known solutions within the step, as of Continuation::between, to which this one is added
+    std::optional<DescribedPoint> describe_between(double fraction, std::optional<PointType> only = std::nullopt,
+                                                   std::vector<ContinuationPoint>* known = nullptr);
     /// Returns the change of an orbit of the branch at a hundredth of the tolerance, relative to the scale of each
     /// unknown. Empty where it is not defined: at branch points, or with additional free parameters.
     std::optional<double> error_of(const Orbit& orbit, const OrbitDirection& tangent);

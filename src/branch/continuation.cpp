@@ -402,14 +402,43 @@ bool Continuation::closes() {
     return problem_->length_of(offset) < same_point;
 }
 
-bool Continuation::between(double fraction, ContinuationPoint& result) {
+/// Predicts the solution at a fraction of the step by a cubic through two solutions and their tangents: the ends, or
+/// the nearest known solution and another that is not nearer to it than the place itself.
+std::vector<double> Continuation::guess_between(double fraction, std::span<const double> chord,
+                                                std::span<const ContinuationPoint> known) const {
+    const double length = point_.arclength - previous_.arclength, square = problem_->product(chord, chord);
+    const auto place = [&](const ContinuationPoint* one) { return (one->arclength - previous_.arclength) / length; };
+    const auto distance = [&](const ContinuationPoint* one) { return std::abs(place(one) - fraction); };
+    std::vector<const ContinuationPoint*> all{&previous_, &point_};
+    for (const ContinuationPoint& one : known)
+        all.push_back(&one);
+    const ContinuationPoint* const nearest = *std::ranges::min_element(all, {}, distance);
+    std::erase_if(all, [&](const ContinuationPoint* one) {
+        return one == nearest || std::abs(place(one) - place(nearest)) < distance(nearest);
+    });
+    if (problem_->has_chords() || known.empty() || all.empty()) // corrections by chords cost little
+        return on_cubic(previous_, point_, length, fraction);
+    const ContinuationPoint* const other = *std::ranges::min_element(all, {}, distance);
+    // Rates per fraction: the hyperplanes are orthogonal to the chord.
+    constexpr double least = 0.1; // cosine of the angle between a tangent and the chord
+    const double along_nearest = problem_->product(nearest->tangent, chord),
+                 along_other = problem_->product(other->tangent, chord);
+    if (!(std::min(along_nearest, along_other) > least * std::sqrt(square)))
+        return on_cubic(previous_, point_, length, fraction);
+    const double part = place(other) - place(nearest);
+    const ContinuationPoint first{nearest->u, numbers_of(square / along_nearest * vector_of(nearest->tangent))},
+        second{other->u, numbers_of(square / along_other * vector_of(other->tangent))};
+    return on_cubic(first, second, part, (fraction - place(nearest)) / part);
+}
+
+bool Continuation::between(double fraction, ContinuationPoint& result, std::span<const ContinuationPoint> known) {
     if (steps_ == 0)
         throw OrderError("there are no two points to look between before the first step");
     require_finite(fraction, "the fraction");
     const double length = point_.arclength - previous_.arclength;
     const std::vector<double> chord = difference(point_.u, previous_.u), row = problem_->row_of(chord);
-    // Predict by the cubic, shifted into the hyperplane.
-    result.u = on_cubic(previous_, point_, length, fraction);
+    result.u = guess_between(fraction, chord, known);
+    // Shift it into the hyperplane.
     const std::vector<double> offset =
         numbers_of(vector_of(previous_.u) + fraction * vector_of(chord) - vector_of(result.u));
     entries_of(result.u) += problem_->product(offset, chord) / problem_->product(chord, chord) * vector_of(chord);

@@ -87,8 +87,9 @@ bool multipliers_agree(BranchState& state, const SpecialPoint& special, const Di
         // Multipliers are undefined all along a curve of contacts of zero speed, or only here, where another contact
         // has zero speed.
         constexpr double aside = 1e-4, near = 0.1; // fraction of the step; bound of the change of multipliers over it
-        const auto there =
-            state.settings().kept ? state.describe_between(step.fraction(special.arclength) - aside) : std::nullopt;
+        const auto there = state.settings().kept
+                               ? state.describe_between(step.fraction(special.arclength) - aside, special.type)
+                               : std::nullopt;
         return there && (number_of_multipliers(there->point.solution) == 0 || distance(there->point.solution) < near);
     }
     const double here = distance(special.solution);
@@ -96,7 +97,7 @@ bool multipliers_agree(BranchState& state, const SpecialPoint& special, const Di
         return here <= close;
     double change = 0;
     for (const double aside : {-beside, beside}) {
-        const auto there = state.describe_between(step.fraction(special.arclength + aside));
+        const auto there = state.describe_between(step.fraction(special.arclength + aside), special.type);
         if (!there)
             return false;
         change = std::max(change, std::abs(distance(there->point.solution) - here));

@@ -36,7 +36,11 @@ public:
     virtual void set_segment(std::optional<std::size_t>) {}
 
     /// Returns the degeneracies at the last evaluation, always the same number in the same order.
-    virtual std::vector<Degeneracy> degeneracies(const OrbitEquations&, const OrbitEvaluation&) { return {}; }
+    /// @param only the single type that is needed: costly values of other types are then NaN
+    virtual std::vector<Degeneracy> degeneracies(const OrbitEquations&, const OrbitEvaluation&,
+                                                 [[maybe_unused]] std::optional<PointType> only = std::nullopt) {
+        return {};
+    }
 
     /// Value of the condition, zero where it holds.
     double value() const { return value_; }

@@ -219,7 +219,7 @@ std::vector<PointLocator::Bracket> PointLocator::brackets_of(std::size_t test, d
         return {};
     const LastStep step = state_->last_step();
     const auto value_at = [&](double fraction) {
-        const auto there = state_->describe_between(fraction);
+        const auto there = state_->describe_between(fraction, now.type);
         return there ? there->tests[test].value : not_a_number;
     };
     const auto dip =
@@ -276,12 +276,13 @@ std::optional<SpecialPoint> PointLocator::locate_zero(std::size_t test, const Te
     const double size = std::fmax(std::abs(low_value), std::abs(high_value));
     std::optional<DescribedPoint> there; // at the last fraction
     std::optional<BranchTest> last;      // last test with a defined value
+    std::vector<ContinuationPoint> known;
     int side = 0;
     for (int i = 0; i < most_locating_steps && high - low > located_within; ++i) {
         fraction = low - low_value * (high - low) / (high_value - low_value); // NaN if one value is NaN
         if (!(fraction > low && fraction < high) || i % 8 == 7)
             fraction = 0.5 * (low + high);
-        auto next = state_->describe_between(fraction);
+        auto next = state_->describe_between(fraction, here_->tests[test].type, &known);
         if (!next) {
             complete = false;
             break;
@@ -305,6 +306,8 @@ std::optional<SpecialPoint> PointLocator::locate_zero(std::size_t test, const Te
         }
     }
     if (!there || (last && is_jump(*last)))
+        return std::nullopt;
+    if (!complete && !state_->problem().evaluate(known.back().u)) // the last attempt has left the branch
         return std::nullopt;
     if (last && std::isnan(there->tests[test].value)) // use the last defined time
         there->tests[test].time = last->time;
@@ -351,7 +354,7 @@ std::optional<SpecialPoint> PointLocator::locate_by_crossing(std::size_t test, c
     const PointTest value = [&](const ContinuationPoint& sample) {
         if (singular)
             return sample.determinant;
-        const auto there = state_->describe(sample);
+        const auto there = state_->describe(sample, here_->tests[test].type);
         return there ? there->tests[test].value : not_a_number;
     };
     std::optional<ContinuationPoint> at = locate_crossing(state_->continuation(), value, low, high);

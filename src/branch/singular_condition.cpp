@@ -116,13 +116,15 @@ void SingularCondition::renew(const OrbitEquations& equations, const OrbitEvalua
     left_ = left;
 }
 
-std::vector<Degeneracy> SingularCondition::degeneracies(const OrbitEquations& equations, const OrbitEvaluation& at) {
+std::vector<Degeneracy> SingularCondition::degeneracies(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                                        std::optional<PointType> only) {
     // Relative to the vectors' lengths. In area-preserving models the multiplier is double all along the curve.
     constexpr double least_product = 1e-9;
     if (multiplier_ > 0)
         return {{PointType::cusp, along_}, {PointType::resonance_1, simplicity_, least_product}};
     const double nothing = std::numeric_limits<double>::quiet_NaN();
-    const auto form = flip_criticality(equations, at, variation());
+    const bool needs_form = !only || *only == PointType::generalised;
+    const auto form = needs_form ? flip_criticality(equations, at, variation()) : std::nullopt;
     return {{PointType::generalised, form && form->is_simple ? form->value() : nothing},
             {PointType::resonance_2, simplicity_, least_product}};
 }
@@ -164,12 +166,14 @@ void TorusCondition::renew(const OrbitEquations&, const OrbitEvaluation&) {
     kept_product_ = product_;
 }
 
-std::vector<Degeneracy> TorusCondition::degeneracies(const OrbitEquations& equations, const OrbitEvaluation& at) {
+std::vector<Degeneracy> TorusCondition::degeneracies(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                                     std::optional<PointType> only) {
     // Relative error of third derivatives. In conservative models the real part is only round-off, which grows towards
     // the resonances at 1 and -1, where the two multipliers coincide.
     constexpr double digits = 1e-5, least_apart = 1e-6;
     const double apart = 1 - sum_ * sum_ / 4; // the square of the imaginary part
-    const auto form = apart > least_apart ? torus_criticality(equations, at, variation()) : std::nullopt;
+    const bool needs_form = (!only || *only == PointType::generalised_torus) && apart > least_apart;
+    const auto form = needs_form ? torus_criticality(equations, at, variation()) : std::nullopt;
     const Degeneracy generalised =
         form ? Degeneracy{PointType::generalised_torus, form->value(), digits * std::abs(form->form) / apart}
              : Degeneracy{PointType::generalised_torus, std::numeric_limits<double>::quiet_NaN()};

@@ -8,6 +8,7 @@
 
 #include <complex>
 #include <memory>
+#include <optional>
 
 namespace graze {
 
@@ -50,7 +51,8 @@ public:
     /// Takes the current null vectors as borders, so that the bordered matrix stays well-conditioned along the branch.
     void renew(const OrbitEquations& equations, const OrbitEvaluation& at) override;
     /// For folds, cusp and 1:1 resonance; for flips, generalised flip and 1:2 resonance.
-    std::vector<Degeneracy> degeneracies(const OrbitEquations& equations, const OrbitEvaluation& at) override;
+    std::vector<Degeneracy> degeneracies(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                         std::optional<PointType> only = std::nullopt) override;
 
 private:
     SingularCondition(const OrbitEquations& equations, const OrbitEvaluation& at, double multiplier);
@@ -73,7 +75,8 @@ public:
     /// From now on the pair is identified by its values at this solution, not at rejected trial points.
     void renew(const OrbitEquations& equations, const OrbitEvaluation& at) override;
     /// The resonances 1:1 to 1:4 and the generalised torus point.
-    std::vector<Degeneracy> degeneracies(const OrbitEquations& equations, const OrbitEvaluation& at) override;
+    std::vector<Degeneracy> degeneracies(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                         std::optional<PointType> only = std::nullopt) override;
 
 private:
     TorusCondition(const OrbitEquations& equations, const OrbitEvaluation& at, double sum, double product);

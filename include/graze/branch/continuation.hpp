@@ -135,7 +135,8 @@ public:
 
     /// Computes the solution between the last two points where the branch crosses the hyperplane at a fraction of the
     /// step. The problem stays evaluated there. @return false when Newton's method does not converge
-    bool between(double fraction, ContinuationPoint& result);
+    /// @param known solutions within the step, from which a better first guess follows than from its ends
+    bool between(double fraction, ContinuationPoint& result, std::span<const ContinuationPoint> known = {});
 
 private:
     ContinuationPoint point_at(std::span<const double> u) const;
@@ -153,6 +154,8 @@ private:
     bool is_stationary(ContinuationPoint point, std::size_t unknown);
     bool start_across(std::span<const double> u, std::size_t unknown, int direction);
     bool closes();
+    std::vector<double> guess_between(double fraction, std::span<const double> chord,
+                                      std::span<const ContinuationPoint> known) const;
 
     std::shared_ptr<ContinuationProblem> problem_;
     ContinuationOptions options_;
