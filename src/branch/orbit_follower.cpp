@@ -5,6 +5,7 @@
 #include "branch/chatter_end.hpp"
 #include "branch/first_step.hpp"
 #include "branch/homoclinic_end.hpp"
+#include "branch/longest_step.hpp"
 #include "branch/other_branch.hpp"
 #include "branch/point_locator.hpp"
 #include "branch/point_rules.hpp"
@@ -12,15 +13,18 @@
 #include "branch/shrinking_orbit.hpp"
 #include "branch/simpler_end.hpp"
 #include "branch/sliding_name.hpp"
+#include "branch/test_forecast.hpp"
 #include "branch/touch_curve_start.hpp"
 #include "graze/base/input_error.hpp"
 #include "graze/base/require.hpp"
 #include "graze/branch/switching.hpp"
 #include "orbit/cut.hpp"
+#include "orbit/eigen_index.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace graze {
 
@@ -119,7 +123,7 @@ private:
     /// Largest number of repetitions of a step, and of changes of the signature.
     static constexpr int most_attempts = 8, most_reorderings = 100;
     /// Factor of the length of a repeated step.
-    static constexpr double shorter = 0.25;
+    static constexpr double shorter = 0.25, half = 0.5;
 
     /// Checks and completes a step that has been made. @param before its start; @param work of its last point
     bool finish_step(const Continuation& continuation, const DescribedPoint& before, std::size_t work) {
@@ -131,6 +135,8 @@ private:
             here_ = before;
             return end_at_equilibrium();
         }
+        if (!is_as_expected() && attempts_ < most_attempts)
+            return step_shorter(continuation, before, half);
         found_ = locator_.locate_all(before);
         if (has_jumped() && attempts_ < most_attempts)
             return step_again(continuation, before);
@@ -144,6 +150,7 @@ private:
             return end(BranchOutcome::bound, "no orbit was found on the bound itself");
         }
         attempts_ = 0;
+        choose_next_step();
         if (state_.settings().kept)
             simpler_end_.note(state_);
         drop_points_at_start(here_.point.arclength - before.point.arclength);
@@ -190,6 +197,8 @@ private:
         beyond->point.step = here_.point.step + 1;
         here_ = std::move(*beyond);
         locator_.forget();
+        forecast_.forget();
+        choose_next_step();
         return true;
     }
     /// Ends the branch where a chatter sequence or the rest after it vanishes. @return false if none does
@@ -245,13 +254,74 @@ private:
     void renewed() {
         locator_.forget();
         describe_here();
+        forecast_.forget();
+        choose_next_step();
+    }
+    /// Shortens the next step where it is longer than usual and the tests may come near zero in it.
+    void choose_next_step() {
+        constexpr double usual = ContinuationOptions().largest_step;
+        Continuation& continuation = state_.continuation();
+        forecast_.add(here_.point.arclength, here_.tests);
+        if (state_.settings().kept) // the tests of curves are in units that follow those of the equations later
+            return;
+        usual_ = longest_step(state_.problem(), continuation.previous(), continuation.point(),
+                              std::min(usual, state_.settings().continuation.largest_step));
+        // A step that the forecast has shortened says nothing against longer ones.
+        constexpr double growth = 2;
+        const double wanted = std::max(continuation.next_step(), std::min(wanted_, growth * state_.last_step().length));
+        wanted_ = 0;
+        if (!(wanted > usual_))
+            return;
+        renew_units();
+        const double length = forecast_.length(usual_, wanted);
+        if (length < wanted)
+            wanted_ = wanted;
+        if (length != continuation.next_step())
+            continuation.set_next_step(length);
+    }
+    /// True when a step is longer than usual.
+    bool is_long(double length) const {
+        constexpr double round_off = 1e-9;
+        return length > (1 + round_off) * usual_;
+    }
+    /// Lets the equations choose the units of the next step, and tells the forecast the tests in these.
+    void renew_units() {
+        OrbitProblem& problem = state_.problem();
+        ContinuationPoint here = state_.continuation().point();
+        if (!problem.accept_ahead(here.u))
+            return;
+        const double length = problem.length_of(here.tangent);
+        entries_of(here.tangent) /= length;
+        std::vector<double> step(here.u.size());
+        const auto there =
+            problem.evaluate(here.u) && problem.solve(problem.row_of(here.tangent), 1, true, step, &here.determinant)
+                ? state_.describe(here)
+                : std::nullopt;
+        if (there)
+            forecast_.rescale(length, there->tests);
+        else
+            forecast_.forget();
+    }
+    /// True when the last step is not longer than usual, or the branch and its tests are as smooth as that requires:
+    /// the tests as predicted, and the step along the mean of the tangents at its ends.
+    bool is_as_expected() {
+        constexpr double off = 0.02; // share of the length
+        const ContinuationPoint &from = state_.continuation().previous(), &to = state_.continuation().point();
+        const double length = to.arclength - from.arclength;
+        if (!is_long(length))
+            return true;
+        const std::vector<double> apart = numbers_of(vector_of(to.u) - vector_of(from.u) -
+                                                     0.5 * length * (vector_of(from.tangent) + vector_of(to.tangent)));
+        return state_.problem().length_of(apart) < off * length &&
+               forecast_.foresees(here_.point.arclength, here_.tests);
     }
     /// Returns to the start of the last step, for a shorter one.
-    void restore(const Continuation& before) {
+    void restore(const Continuation& before, double factor = shorter) {
         Continuation& continuation = state_.continuation();
         const double length = continuation.point().arclength - continuation.previous().arclength;
         continuation = before;
-        continuation.set_next_step(shorter * length);
+        wanted_ = is_long(length) ? continuation.next_step() : 0;
+        continuation.set_next_step(is_long(length) ? std::max(factor * length, usual_) : factor * length);
     }
     /// Repeats the last step: towards an equilibrium to which the orbits shrink, without the section that was touched
     /// within the step, or with a shorter step if the section is needed or a cut was touched.
@@ -279,11 +349,15 @@ private:
     }
     /// Repeats the last step with a shorter one, as where it has jumped or passed a bound that could not be located.
     bool step_again(const Continuation& continuation, const DescribedPoint& before) {
-        ++attempts_;
         found_.clear();
-        here_ = before;
         locator_.forget();
-        restore(continuation);
+        return step_shorter(continuation, before);
+    }
+    /// The same before anything was located within it.
+    bool step_shorter(const Continuation& continuation, const DescribedPoint& before, double factor = shorter) {
+        ++attempts_;
+        here_ = before;
+        restore(continuation, factor);
         state_.problem().evaluate(state_.continuation().point().u);
         return step();
     }
@@ -330,6 +404,8 @@ private:
         if (is_beyond_bounds(here_.tests))
             return end(BranchOutcome::bound, "at the first orbit " + beyond_in_words(state_, here_.point));
         starts_simpler_ = is_degenerate(state_, state_.orbit(), same_orbit);
+        forecast_.forget();
+        choose_next_step();
         if (leads_beyond_bounds(state_))
             finish(BranchOutcome::bound, "");
         return true;
@@ -441,6 +517,11 @@ private:
     ChatterEnd chatter_end_;
     HomoclinicEnd homoclinic_end_;
     int attempts_ = 0; ///< number of repetitions of the current step
+    TestForecast forecast_;
+    /// Length of the next step that is made whatever the tests may be.
+    double usual_ = std::numeric_limits<double>::infinity();
+    /// Length of the next step if the tests had not shortened the last one; 0: they have not.
+    double wanted_ = 0;
 };
 
 } // namespace

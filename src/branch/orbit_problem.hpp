@@ -72,6 +72,9 @@ public:
     /// tolerance. Requires `has_chords`. @return false where it cannot follow the orbit
     bool correction_by(ModeFlow& flow, std::span<const double> row, std::span<double> step);
     void accept(std::span<const double> u) override {
+        if (std::ranges::equal(u, ahead_))
+            return;
+        ahead_.clear();
         // Scales need not be exact, so they are renewed only every few steps.
         constexpr std::size_t renewal = 5;
         if (at_.is_at(vector_of(u)))
@@ -79,6 +82,14 @@ public:
                 condition->renew(*equations_, at_);
         if (accepted_++ % renewal == 0)
             equations_->set_scales(vector_of(u));
+    }
+
+    /// Does the same before the step, for which it is then not done again. @return true if the scales have changed
+    bool accept_ahead(std::span<const double> u) {
+        const std::vector<double> before(scales().begin(), scales().end());
+        accept(u);
+        ahead_.assign(u.begin(), u.end());
+        return !std::ranges::equal(before, scales());
     }
 
     void reduce(std::span<double> difference) const override {
@@ -104,6 +115,7 @@ private:
     std::vector<double> row_;   ///< row of the factored system `closed_`; empty: none
     OrbitEquations::Closed closed_;
     std::size_t accepted_ = 0;
+    std::vector<double> ahead_; ///< unknowns that have been accepted before their step
 };
 
 } // namespace graze

@@ -163,8 +163,8 @@ void describe_continuation(Fields& fields, Run& run) {
                   "steps of the continuation: the first, smallest and largest one in units of the orbit's size (0.01, "
                   "1e-8, 0.05), and the largest angle between two in radians (0.35). Where the branch is straight and "
                   "states are larger than their variation along the orbit, steps are up to ten times `largest`. With "
-                  "a `largest` of 0.4 whole branches take half the time and have a quarter of the points; two special "
-                  "points of a type within one step may then be lost"},
+                  "a `largest` of 0.4 branches have half the points: steps are as long as that only where no special "
+                  "point is near"},
                  "{ first, smallest, largest, angle }", [&step = branch.continuation](auto& one) {
                      one.number(key_in_table("first", "first_step"), step.first_step, positive_number);
                      one.number(key_in_table("smallest", "smallest_step"), step.smallest_step, positive_number);

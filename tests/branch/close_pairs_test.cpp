@@ -101,13 +101,15 @@ private:
     double apart_ = 0, at_ = 0;
 };
 
-void expect_none_lost(unsigned seed, int count) {
+/// @param longest largest step
+void expect_none_lost(unsigned seed, int count, double longest = ContinuationOptions().largest_step) {
     constexpr double accuracy = 1e-8;
     Pairs pairs(seed);
     for (int i = 0; i < count; ++i) {
         const Pair pair = pairs.next();
         BranchSettings settings = in_parameter(pair.model, "p", -1, 1);
         settings.stop_when_unphysical = false;
+        settings.continuation.largest_step = longest;
         const Branch branch = follow_branch(System(pair.model), fixed_point(pair.model, pair.start), settings);
         const auto found = of_type(branch, pair.type);
         ASSERT_EQ(found.size(), 2U) << i << ": " << name_of(pair.type) << " at " << pair.first << " and "
@@ -125,6 +127,11 @@ TEST(ClosePairs, NoneIsLostOnRandomBranches) {
 
 TEST(ClosePairsSlow, NoneIsLostOnAThousandRandomBranches) {
     expect_none_lost(2, 1000);
+}
+
+/// Steps are four times as long only where no test comes near zero.
+TEST(ClosePairs, NoneIsLostWithLongSteps) {
+    expect_none_lost(3, 100, 0.2);
 }
 
 } // namespace graze::close_pairs_test

@@ -178,19 +178,21 @@ TEST(NormalForms, DoubledOrbitHasItsClosedForm) {
 }
 
 TEST(NormalForms, PairsOfPointsWithinOneStepAreFound) {
-    // u = 0 is unstable only while |p| < 0.01: steps are ten times as long.
-    const std::string growth = "(0.0001 - p^2)";
+    // u = 0 is unstable only while |p| < 0.001: steps are ten times as long, where they are longer no test is near
+    // zero.
+    const std::string growth = "(0.000001 - p^2)";
     for (const bool flips : {false, true}) {
         const Model model = flips ? flipping(growth, -0.5) : in_p("u*(" + growth + " - u^2)", -0.5, 0);
         const std::vector<double> start = flips ? std::vector<double>{1, 0, 0} : std::vector<double>{1, 0};
         BranchSettings settings;
         settings.greatest = 0.5;
+        settings.continuation.first_step = 0.013; // otherwise a step ends at p = 0
         settings.continuation.largest_step = 0.1;
         const Branch branch = follow_branch(System(model), orbit_from(model, start), settings);
         ASSERT_EQ(names(branch), flips ? "PD PD BD" : "BP BP BD");
         EXPECT_EQ(branch.special[0].step, branch.special[1].step);
-        EXPECT_NEAR(branch.special[0].parameter, -0.01, 1e-12);
-        EXPECT_NEAR(branch.special[1].parameter, 0.01, 1e-12);
+        EXPECT_NEAR(branch.special[0].parameter, -0.001, 1e-12);
+        EXPECT_NEAR(branch.special[1].parameter, 0.001, 1e-12);
     }
 }
 
