@@ -4,7 +4,8 @@ set(GRAZE_FOLDERS base symbolic model tape flow trajectory record bench acquire 
 
 # Other libraries that a folder needs.
 if(GRAZE_NATIVE)
-    set(GRAZE_NEEDS_tape asmjit::asmjit)
+    # Without its definitions, which all users of the folder would have, but not their precompiled headers.
+    set(GRAZE_NEEDS_tape $<TARGET_FILE:asmjit::asmjit>)
 endif()
 set(GRAZE_NEEDS_sweep Threads::Threads)
 set(GRAZE_NEEDS_record graze_hdf5)
@@ -85,7 +86,9 @@ set_target_properties(
                      ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
 )
 if(GRAZE_NATIVE)
-    target_compile_definitions(graze_tape PRIVATE GRAZE_NATIVE)
+    target_compile_definitions(
+        graze_tape PRIVATE GRAZE_NATIVE $<TARGET_PROPERTY:asmjit::asmjit,INTERFACE_COMPILE_DEFINITIONS>
+    )
 endif()
 foreach(folder study page)
     target_compile_definitions(graze_${folder} PRIVATE GRAZE_VERSION="${PROJECT_VERSION}")
