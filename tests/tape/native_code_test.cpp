@@ -9,8 +9,11 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <limits>
 #include <random>
+#include <sstream>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -271,6 +274,32 @@ TEST(NativeCode, SeveralThreadsShareIt) {
         thread.join();
     for (const int count : wrong)
         EXPECT_EQ(count, 0);
+}
+
+TEST(NativeCode, IsNotWritableOnceItCanBeExecuted) {
+    const std::vector<InstructionSet> sets = sets_with_code();
+    if (sets.empty())
+        GTEST_SKIP() << "built without the assembler, or on a processor without AVX2";
+    Problem p;
+    const Expression x = p.state("x", 1);
+    p.rates = {x * x};
+    const Tape tape = p.tape();
+    const auto pages_that_are = [](const std::string& wanted) { // of memory without a file
+        int count = 0;
+        std::ifstream maps("/proc/self/maps");
+        std::string addresses, rights, offset, device, node;
+        for (std::string line; std::getline(maps, line);) {
+            std::istringstream words(line);
+            words >> addresses >> rights >> offset >> device >> node;
+            count += rights.starts_with(wanted) && node == "0" ? 1 : 0;
+        }
+        return count;
+    };
+    const int executed = pages_that_are("r-x"), both = pages_that_are("rwx");
+    const auto code = NativeCode::make(tape, 12, kernel_table(LaneKind::single, sets.front()), sets.front());
+    ASSERT_NE(code, nullptr);
+    EXPECT_EQ(pages_that_are("r-x"), executed + 1);
+    EXPECT_EQ(pages_that_are("rwx"), both);
 }
 
 TEST(NativeCode, LongTapesAreLeftToKernels) {
