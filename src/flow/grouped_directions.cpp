@@ -22,7 +22,7 @@ Lists dependents_of(const TangentEquations& equations) {
     const std::size_t first_intermediate = equations.states + equations.parameters;
     const auto sorted = [](std::vector<std::size_t>& list) {
         std::ranges::sort(list);
-        list.erase(std::ranges::unique(list).begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
     };
     for (const TangentEntry& entry : equations.entries) {
         const auto add = [&](std::size_t state) {
