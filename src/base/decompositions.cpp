@@ -128,11 +128,31 @@ std::optional<GeneralizedEigenvalues> generalized_eigenvalues(const Eigen::Matri
     return result;
 }
 
+// From the real form, with a rotation for each of its blocks of two rows: Eigen::ComplexSchur takes a third of the time
+// of all else here to compile.
 std::optional<SchurForm> schur_form(const Eigen::MatrixXd& matrix) {
-    const Eigen::ComplexSchur<Eigen::MatrixXcd> schur(matrix.cast<std::complex<double>>());
-    if (schur.info() != Eigen::Success)
+    const Eigen::RealSchur<Eigen::MatrixXd> real(matrix);
+    if (real.info() != Eigen::Success)
         return std::nullopt;
-    return SchurForm{schur.matrixU(), schur.matrixT()};
+    SchurForm result{real.matrixU().cast<std::complex<double>>(), real.matrixT().cast<std::complex<double>>()};
+    for (Eigen::Index i = 0; i + 1 < matrix.rows(); ++i) {
+        const Eigen::Matrix2d block = real.matrixT().block<2, 2>(i, i);
+        if (block(1, 0) == 0)
+            continue;
+        const double half = 0.5 * (block(0, 0) - block(1, 1)), square = half * half + block(0, 1) * block(1, 0);
+        // An eigenvector of the block: the first column of the rotation.
+        const std::complex<double> above = half + std::sqrt(std::complex<double>(square));
+        const double length = std::hypot(above.real(), above.imag(), block(1, 0));
+        const std::complex<double> first = above / length;
+        const double second = block(1, 0) / length;
+        Eigen::Matrix2cd rotation;
+        rotation << first, -second, second, std::conj(first);
+        result.triangle.middleRows<2>(i) = (rotation.adjoint() * result.triangle.middleRows<2>(i)).eval();
+        result.triangle.middleCols<2>(i) = (result.triangle.middleCols<2>(i) * rotation).eval();
+        result.unitary.middleCols<2>(i) = (result.unitary.middleCols<2>(i) * rotation).eval();
+        result.triangle(i + 1, i) = 0;
+    }
+    return result;
 }
 
 OrthogonalFactors orthogonal_factors(const Eigen::MatrixXd& matrix) {

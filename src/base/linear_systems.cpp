@@ -1,5 +1,7 @@
 #include "base/linear_systems.hpp"
 
+#include "base/decompositions.hpp"
+
 #include "base/many_states.hpp"
 
 #include <limits>
@@ -134,11 +136,13 @@ LeastSquares least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd&
 
 Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right,
                                   std::optional<double> threshold) {
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors(matrix.rows(), matrix.cols());
-    if (threshold)
-        factors.setThreshold(*threshold);
-    factors.compute(matrix);
-    return factors.solve(right);
+    if (!matrix.allFinite() || !right.allFinite())
+        return Eigen::VectorXd::Constant(matrix.cols(), std::numeric_limits<double>::quiet_NaN());
+    const SingularValues factors = singular_values(matrix, SingularVectors::thin);
+    const double round_off = std::numeric_limits<double>::epsilon() * static_cast<double>(factors.values.size());
+    const Eigen::Index rank = factors.rank(threshold.value_or(round_off));
+    const Eigen::VectorXd along = factors.left.leftCols(rank).transpose() * right;
+    return factors.right.leftCols(rank) * along.cwiseQuotient(factors.values.head(rank));
 }
 
 void make_triangular(Eigen::MatrixXd& matrix) {
