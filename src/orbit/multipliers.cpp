@@ -57,7 +57,7 @@ public:
     SparseProduct(const std::vector<Eigen::MatrixXd>& factors, const std::vector<Eigen::VectorXd>& directions) {
         constexpr double negligible = 0x1p-60; // of the largest element: far below the error of each
         for (const Eigen::MatrixXd& factor : factors)
-            factors_.push_back(factor.sparseView(factor.cwiseAbs().maxCoeff(), negligible));
+            factors_.emplace_back(factor.sparseView(factor.cwiseAbs().maxCoeff(), negligible));
         for (const Eigen::VectorXd& direction : directions)
             directions_.push_back(direction.normalized());
     }
