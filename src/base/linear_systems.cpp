@@ -1,10 +1,8 @@
 #include "base/linear_systems.hpp"
 
 #include "base/decompositions.hpp"
-
 #include "base/many_states.hpp"
-
-#include <limits>
+#include "base/special_numbers.hpp"
 
 namespace graze {
 
@@ -31,7 +29,7 @@ double PartialLU::determinant() const {
 }
 
 bool PartialLU::is_regular() const {
-    return reciprocal_condition() > std::numeric_limits<double>::epsilon();
+    return reciprocal_condition() > epsilon;
 }
 
 double PartialLU::reciprocal_condition() const {
@@ -137,9 +135,9 @@ LeastSquares least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd&
 Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right,
                                   std::optional<double> threshold) {
     if (!matrix.allFinite() || !right.allFinite())
-        return Eigen::VectorXd::Constant(matrix.cols(), std::numeric_limits<double>::quiet_NaN());
+        return Eigen::VectorXd::Constant(matrix.cols(), not_a_number);
     const SingularValues factors = singular_values(matrix, SingularVectors::thin);
-    const double round_off = std::numeric_limits<double>::epsilon() * static_cast<double>(factors.values.size());
+    const double round_off = epsilon * static_cast<double>(factors.values.size());
     const Eigen::Index rank = factors.rank(threshold.value_or(round_off));
     const Eigen::VectorXd along = factors.left.leftCols(rank).transpose() * right;
     return factors.right.leftCols(rank) * along.cwiseQuotient(factors.values.head(rank));

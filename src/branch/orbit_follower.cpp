@@ -1,3 +1,4 @@
+#include "base/special_numbers.hpp"
 #include "branch/branch_follower.hpp"
 
 #include "base/signs.hpp"
@@ -24,7 +25,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace graze {
 
@@ -197,8 +197,7 @@ private:
         beyond->point.step = here_.point.step + 1;
         here_ = std::move(*beyond);
         locator_.forget();
-        forecast_.forget();
-        choose_next_step();
+        restart_forecast();
         return true;
     }
     /// Ends the branch where a chatter sequence or the rest after it vanishes. @return false if none does
@@ -254,6 +253,10 @@ private:
     void renewed() {
         locator_.forget();
         describe_here();
+        restart_forecast();
+    }
+    /// Forgets the tests of the points before, which are not those of the points that follow.
+    void restart_forecast() {
         forecast_.forget();
         choose_next_step();
     }
@@ -404,8 +407,7 @@ private:
         if (is_beyond_bounds(here_.tests))
             return end(BranchOutcome::bound, "at the first orbit " + beyond_in_words(state_, here_.point));
         starts_simpler_ = is_degenerate(state_, state_.orbit(), same_orbit);
-        forecast_.forget();
-        choose_next_step();
+        restart_forecast();
         if (leads_beyond_bounds(state_))
             finish(BranchOutcome::bound, "");
         return true;
@@ -519,7 +521,7 @@ private:
     int attempts_ = 0; ///< number of repetitions of the current step
     TestForecast forecast_;
     /// Length of the next step that is made whatever the tests may be.
-    double usual_ = std::numeric_limits<double>::infinity();
+    double usual_ = infinity;
     /// Length of the next step if the tests had not shortened the last one; 0: they have not.
     double wanted_ = 0;
 };

@@ -95,6 +95,14 @@ x86::Xmm NativeEmitter::copy_of(Offset number) {
     return copy;
 }
 
+/// Returns (a b) c.
+x86::Xmm NativeEmitter::product_of_three(Offset a, Offset b, Offset c) {
+    const x86::Xmm value = copy_of(a);
+    registers_.multiply(value, value, b);
+    registers_.multiply(value, value, c);
+    return value;
+}
+
 x86::Xmm NativeEmitter::convolution(const NativeProduct& product, int order) {
     const auto [a, b, half] = product;
     const x86::Xmm sum = copy_of(a + 1);
@@ -228,24 +236,16 @@ void NativeEmitter::emit_linear(const NativeStep& step) {
         registers_.multiply(value, value, inverse_of(step));
         return define(step, value);
     }
-    case Kind::function_of_linear: {
-        const x86::Xmm value = copy_of(step.third + 1);
-        registers_.multiply(value, value, inverse_of(step));
-        registers_.multiply(value, value, step.right + k - 1);
-        return define(step, value);
-    }
+    case Kind::function_of_linear:
+        return define(step, product_of_three(step.third + 1, inverse_of(step), step.right + k - 1));
     case Kind::multiply_linear: {
         const x86::Xmm value = copy_of(step.left + 1);
         registers_.multiply(value, value, step.right + k - 1);
         registers_.add_product(value, registers_.load(step.right + k), step.left);
         return define(step, value);
     }
-    case Kind::exponential: {
-        const x86::Xmm value = copy_of(step.left + 1);
-        registers_.multiply(value, value, inverse_of(step));
-        registers_.multiply(value, value, step.result + k - 1);
-        return define(step, value);
-    }
+    case Kind::exponential:
+        return define(step, product_of_three(step.left + 1, inverse_of(step), step.result + k - 1));
     default: { // a quotient function, or a derivative
         const x86::Xmm value = copy_of(step.left + k);
         registers_.multiply(value, value,
@@ -257,12 +257,8 @@ void NativeEmitter::emit_linear(const NativeStep& step) {
 
 void NativeEmitter::emit_pair(const NativeStep& step) {
     const int k = step.order;
-    const x86::Xmm one = copy_of(step.left + 1);
-    registers_.multiply(one, one, scratch_begin + inverses + k);
-    registers_.multiply(one, one, step.third + k - 1);
-    const x86::Xmm other = copy_of(step.left + 1);
-    registers_.multiply(other, other, inverse_of(step));
-    registers_.multiply(other, other, step.result + k - 1);
+    const x86::Xmm one = product_of_three(step.left + 1, scratch_begin + inverses + k, step.third + k - 1);
+    const x86::Xmm other = product_of_three(step.left + 1, inverse_of(step), step.result + k - 1);
     define(step, one);
     define(step.third, k, other);
 }

@@ -55,6 +55,7 @@ private:
         return scratch_begin + (step.negative ? negative_inverses : inverses) + step.order;
     }
     x86::Xmm copy_of(Offset number);
+    x86::Xmm product_of_three(Offset a, Offset b, Offset c);
     x86::Xmm convolution(const NativeProduct& product, int order);
     x86::Xmm self_convolution(const NativeStep& step);
     x86::Xmm linear_sum(const NativeStep& step, int order);

@@ -2,13 +2,11 @@
 
 #include "tape/native_code.hpp"
 
+#include "same_bits.hpp"
 #include "tape/problems.hpp"
 
 #include <gtest/gtest.h>
 
-#include <bit>
-#include <cmath>
-#include <cstdint>
 #include <fstream>
 #include <limits>
 #include <random>
@@ -20,12 +18,18 @@
 namespace graze::native_code_test {
 
 using testing::Problem;
+using testing::same_bits;
 
-bool is_made(InstructionSet set) {
+/// Of a state whose rate is its square.
+Tape square_tape() {
     Problem p;
     const Expression x = p.state("x", 1);
     p.rates = {x * x};
-    return NativeCode::make(p.tape(), 4, kernel_table(LaneKind::single, set), set) != nullptr;
+    return p.tape();
+}
+
+bool is_made(InstructionSet set) {
+    return NativeCode::make(square_tape(), 4, kernel_table(LaneKind::single, set), set) != nullptr;
 }
 
 std::vector<InstructionSet> sets_with_code() {
@@ -36,19 +40,15 @@ std::vector<InstructionSet> sets_with_code() {
     return sets;
 }
 
-/// Equal bits; all NaN are the same.
-bool same(double a, double b) {
-    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) || (std::isnan(a) && std::isnan(b));
-}
-
 /// Returns the number of coefficients of states and outputs that differ.
 int differences(const Jet& one, const Jet& other) {
     int count = 0;
     for (std::size_t i = 0; i < one.series().size(); ++i)
         for (int k = 0; k <= one.order(); ++k)
-            count += same(one.series()[i][static_cast<std::size_t>(k)], other.series()[i][static_cast<std::size_t>(k)])
-                         ? 0
-                         : 1;
+            count +=
+                same_bits(one.series()[i][static_cast<std::size_t>(k)], other.series()[i][static_cast<std::size_t>(k)])
+                    ? 0
+                    : 1;
     return count;
 }
 
@@ -72,12 +72,10 @@ TEST(NativeCode, IsMadeWhereItIsSupported) {
     EXPECT_FALSE(is_made(InstructionSet::baseline));
     if (sets_with_code().empty())
         GTEST_SKIP() << "built without the assembler, or on a processor without AVX2";
-    Problem p;
-    const Expression x = p.state("x", 1);
-    p.rates = {x * x};
+    const Tape tape = square_tape();
     const InstructionSet set = sets_with_code().front();
-    EXPECT_EQ(NativeCode::make(p.tape(), 1, kernel_table(LaneKind::single, set), set), nullptr) << "nothing to compute";
-    EXPECT_LT(NativeCode::make(p.tape(), 32, kernel_table(LaneKind::single, set), set)->size(), 1U << 16);
+    EXPECT_EQ(NativeCode::make(tape, 1, kernel_table(LaneKind::single, set), set), nullptr) << "nothing to compute";
+    EXPECT_LT(NativeCode::make(tape, 32, kernel_table(LaneKind::single, set), set)->size(), 1U << 16);
 }
 
 TEST(NativeCode, EveryOperationAndOrder) {
@@ -208,7 +206,8 @@ TEST(NativeCode, WhatDeferredExpressionsAndStepsRead) {
             jet->compute_deferred({&group, 1});
         for (std::size_t i = 0; i < deferred.size(); ++i)
             for (int k = 0; k <= 17; ++k)
-                EXPECT_TRUE(same(pair.by_kernels->deferred(i)[k], pair.by_code->deferred(i)[k])) << i << " order " << k;
+                EXPECT_TRUE(same_bits(pair.by_kernels->deferred(i)[k], pair.by_code->deferred(i)[k]))
+                    << i << " order " << k;
     }
     // Without deferred expressions, most series are not in memory: guards must find theirs.
     std::mt19937 random(3);
@@ -221,7 +220,7 @@ TEST(NativeCode, WhatDeferredExpressionsAndStepsRead) {
                 double first = 0, second = 0;
                 pair.by_kernels->find_steps(-40, {&reference, 1}, {&first, 1});
                 pair.by_code->find_steps(-40, {&reference, 1}, {&second, 1});
-                EXPECT_TRUE(same(first, second)) << "tape " << count;
+                EXPECT_TRUE(same_bits(first, second)) << "tape " << count;
             }
         }
     }
@@ -280,10 +279,7 @@ TEST(NativeCode, IsNotWritableOnceItCanBeExecuted) {
     const std::vector<InstructionSet> sets = sets_with_code();
     if (sets.empty())
         GTEST_SKIP() << "built without the assembler, or on a processor without AVX2";
-    Problem p;
-    const Expression x = p.state("x", 1);
-    p.rates = {x * x};
-    const Tape tape = p.tape();
+    const Tape tape = square_tape();
     const auto pages_that_are = [](const std::string& wanted) { // of memory without a file
         int count = 0;
         std::ifstream maps("/proc/self/maps");

@@ -4,8 +4,9 @@ public header by itself.
 
 usage: tidy.py BUILD OUTPUT JOBS [--recent] [OPTION...]
 
-With --recent only of what was changed in the twelve hours before the newest commit, and since. BUILD has compile_commands.json; what is put together goes to OUTPUT. Sources whose own names collide are never put
-together; where that was not seen, a batch is looked at in halves. Options go to clang-tidy.
+BUILD has compile_commands.json; what is put together goes to OUTPUT. With --recent only what was changed in the twelve
+hours before the newest commit, and since, is looked at. Sources whose own names collide are never put together; where
+that was not seen, a batch is looked at in halves. Other options go to clang-tidy.
 """
 import concurrent.futures
 import itertools
@@ -97,7 +98,8 @@ def recently_changed():
     """Files that commits of the last twelve hours before the newest one changed, and those that are not committed."""
     begin = int(git("log", "-1", "--format=%ct")) - 12 * 3600
     names = git("log", f"--since={begin}", "--name-only", "--format=").splitlines()
-    names += [line[3:] for line in git("status", "--porcelain", "--untracked-files=all").splitlines()]
+    names += git("diff", "HEAD", "--name-only").splitlines()
+    names += git("ls-files", "--others", "--exclude-standard").splitlines()
     return {ROOT / name for name in names if name}
 
 

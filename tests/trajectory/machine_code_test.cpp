@@ -2,20 +2,16 @@
 
 #include "graze/flow/system.hpp"
 #include "graze/tape/jet.hpp"
+#include "same_bits.hpp"
 #include "trajectory/simulate.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
-#include <cstdint>
 
 namespace graze::machine_code_test {
 
-bool same(double a, double b) {
-    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) || (std::isnan(a) && std::isnan(b));
-}
+using testing::same_bits;
 
 TEST(MachineCode, CoefficientsOfAllShippedModels) {
     for (const std::string& name : shipped_models()) {
@@ -37,7 +33,7 @@ TEST(MachineCode, CoefficientsOfAllShippedModels) {
                 }
                 for (std::size_t i = 0; i < by_kernels->series().size(); ++i)
                     for (std::size_t k = 0; k <= static_cast<std::size_t>(order); ++k)
-                        ASSERT_TRUE(same(by_kernels->series()[i][k], by_code->series()[i][k]))
+                        ASSERT_TRUE(same_bits(by_kernels->series()[i][k], by_code->series()[i][k]))
                             << name << " mode " << mode << " series " << i << " coefficient " << k << " of " << order;
             }
     }
@@ -61,7 +57,7 @@ TEST(MachineCode, LongTrajectoriesAreTheSameWithoutIt) {
     EXPECT_GT(with.back(), 10'000) << "long enough for machine code to be made on the way";
     ASSERT_EQ(with.size(), without.size());
     for (std::size_t i = 0; i < with.size(); ++i)
-        EXPECT_TRUE(same(with[i], without[i])) << i << ": " << with[i] << " and " << without[i];
+        EXPECT_TRUE(same_bits(with[i], without[i])) << i << ": " << with[i] << " and " << without[i];
 }
 
 TEST(MachineCode, WithoutItHoldsForAllTapesOfASystem) {
